@@ -42,6 +42,11 @@ struct brume_error {
 bool brume_fail(struct brume_error *err, enum brume_code code,
                 const char *format, ...) BRUME_PRINTF(3, 4);
 
+/* The same for a data file: BRUME_ERR_FILE with err->file set. The text also
+ * names the file, as it may be printed at the scene's line. */
+bool brume_fail_file(struct brume_error *err, const char *path,
+                     const char *format, ...) BRUME_PRINTF(3, 4);
+
 #ifdef __cplusplus
 }
 #endif
