@@ -1,0 +1,81 @@
+/* parse.h - the scene language: text in, scene out.
+ *
+ * A call reads one scene for one frame; a film calls it again for each frame
+ * with that frame's clock. Nothing is kept between calls, and nothing is
+ * printed: diagnostics are collected in `diag`, and what #debug, #warning and
+ * #error say goes to `message` at once. */
+#ifndef PARSER_PARSE_H
+#define PARSER_PARSE_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include "core/brume.h"
+#include "parser/diag.h"
+
+/* The streams that a scene can write to. */
+enum parse_stream { PARSE_DEBUG, PARSE_WARNING, PARSE_ERROR };
+
+/* An identifier given on the command line: Declare=name=value. */
+struct parse_declare {
+    const char *name;
+    double value;
+};
+
+/* The identifiers of the same names. */
+struct parse_ambient {
+    double clock, clock_delta;
+    bool clock_on;
+    double frame_number;
+    double initial_clock, final_clock;
+    double initial_frame, final_frame;
+    int image_width, image_height;
+};
+#define PARSE_AMBIENT_INIT {0, 1, false, 0, 0, 1, 1, 1, 160, 120}
+
+/* 0 stands for the default of each. Reaching one is BRUME_ERR_LIMIT. */
+struct parse_limits {
+    int include_depth;          /* files within files; 64                  */
+    int macro_depth;            /* calls within calls; 65536               */
+    uint64_t iterations;        /* of all loops together; 10^9             */
+    uint64_t tokens;            /* after expansion; 10^10                  */
+    size_t memory;              /* bytes held by the front end; 4 GiB      */
+    double seconds;             /* wall time; none                         */
+};
+
+struct parse_input {
+    const char *path;           /* the scene; "-" if text is not a file's  */
+    const char *text;           /* read already (standard input); or NULL  */
+    size_t length;              /* of text                                 */
+    /* Folders, in the order they are searched after the scene's own. */
+    const char *const *library;
+    size_t libraries;
+    /* Folders that #include may reach into besides those, and folders that
+     * a scene may write to. */
+    const char *const *allow_read, *const *allow_write;
+    size_t allow_reads, allow_writes;
+    const struct parse_declare *declare;
+    size_t declares;
+    struct parse_ambient ambient;
+    struct parse_limits limits;
+    /* May be NULL. `text` ends with NUL and may hold line ends. */
+    void (*message)(void *user, enum parse_stream stream, const char *text);
+    void *user;
+};
+
+/* What the scene says of its own rendering; the command line overrides it. */
+struct parse_result {
+    brume_scene *scene;         /* the caller frees it                     */
+    double version;             /* of #version, 3.7 if it says none        */
+    double assumed_gamma;       /* 0: not given                            */
+    bool has_integrator;
+    enum brume_integrator integrator;
+    double accuracy;            /* 0: not given; estimated relative error  */
+    double time_limit;          /* seconds, 0: not given                   */
+};
+
+/* False: `diag` holds an error whose code is the exit code, and out->scene is
+ * NULL. Warnings alone leave it true. */
+bool parse_scene(const struct parse_input *in, struct parse_result *out,
+                 struct diag *diag);
+
+#endif

@@ -1,0 +1,62 @@
+/* parser.h - what the parts of the front end share while a scene is read:
+ * the expander, the grammar's actions and the builder. Private to parser/. */
+#ifndef PARSER_PARSER_H
+#define PARSER_PARSER_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include "lib/arena.h"
+#include "lib/error.h"
+#include "parser/diag.h"
+#include "parser/parse.h"
+#include "parser/symbol.h"
+#include "parser/token.h"
+#include "parser/value.h"
+
+struct source;
+struct expander;
+struct builder;
+
+struct parser {
+    const struct parse_input *in;
+    struct parse_result *out;
+    struct parse_limits limits;     /* defaults filled in                  */
+    struct diag *diag;
+    struct arena arena;             /* tokens, names, values, nodes        */
+    struct symbols symbols;
+    struct source **source;         /* texts, by location.source           */
+    size_t sources, source_room;
+    struct expander *expander;
+    struct builder *builder;
+    bool failed;                    /* an error was reported: stop         */
+};
+
+/* Report at a place of the scene, with its line, the trace of includes and
+ * macros, and a hint if there is one to give. An error stops the parse after
+ * the current action, which need not undo anything. Always false. */
+bool parser_error(struct parser *parser, struct location at,
+                  const char *format, ...) BRUME_PRINTF(3, 4);
+/* As above with a code other than BRUME_ERR_SCENE and a hint (or NULL). */
+bool parser_fail(struct parser *parser, enum brume_code code,
+                 struct location at, const char *hint, const char *format,
+                 ...) BRUME_PRINTF(5, 6);
+void parser_warn(struct parser *parser, struct location at,
+                 const char *format, ...) BRUME_PRINTF(3, 4);
+/* Reports an error that core or lib gave, as if it stood at `at`. */
+bool parser_relay(struct parser *parser, struct location at,
+                  const struct brume_error *err);
+
+/* From the parse arena, zeroed. NULL: the limit was reported. */
+void *parser_alloc(struct parser *parser, size_t size);
+void *parser_array(struct parser *parser, size_t count, size_t size);
+
+/* Where a file of that name is, by the folder of the text that names it, the
+ * scene's folder and the library path; the path lies in the arena. NULL: not
+ * found, or not allowed, and reported. Data files may lie anywhere; scene
+ * texts are held to the permitted folders. */
+enum parser_purpose { PARSER_TEXT, PARSER_DATA };
+const char *parser_find_file(struct parser *parser, struct location at,
+                             struct string name,
+                             enum parser_purpose purpose);
+
+#endif

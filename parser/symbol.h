@@ -1,0 +1,70 @@
+/* symbol.h - names and what they stand for.
+ *
+ * Every word of a scene is interned once as a `struct name`; its declarations
+ * form a stack, the most local on top, so that looking one up costs nothing.
+ * Scopes are dynamic, as in POV-Ray: a macro sees the locals of its caller. */
+#ifndef PARSER_SYMBOL_H
+#define PARSER_SYMBOL_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include "lib/arena.h"
+#include "parser/token.h"
+#include "parser/value.h"
+
+struct name {
+    struct name *chain;             /* of its hash bucket                  */
+    const struct keyword *keyword;  /* NULL: an ordinary name              */
+    struct symbol *symbol;          /* most local declaration; or NULL     */
+    uint32_t hash, length;
+    char text[];
+};
+
+struct symbol {
+    struct name *name;
+    struct symbol *outer;           /* the declaration that this one hides */
+    struct symbol *next;            /* in its scope                        */
+    uint32_t level;                 /* of its scope; 0 is global           */
+    /* A macro parameter that was given an identifier stands for it: */
+    struct value *refers;           /* the value meant; NULL: `value`      */
+    struct value value;
+    struct location declared;
+};
+
+struct symbols {
+    struct arena *arena;
+    struct name **bucket;
+    size_t buckets, names;
+    struct symbol *spare;
+    struct symbol **scope;          /* by level: the newest symbol of each */
+    size_t scope_room;
+    uint32_t level;
+};
+
+bool symbols_init(struct symbols *symbols, struct arena *arena);
+
+/* The one `struct name` of a word; NULL: no memory. */
+struct name *symbols_name(struct symbols *symbols, const char *text,
+                          size_t length);
+
+bool symbols_enter(struct symbols *symbols);
+void symbols_leave(struct symbols *symbols);
+
+/* The value a name stands for, or NULL if it is not declared. */
+struct value *symbols_find(const struct name *name);
+
+/* #declare: sets the most local declaration, or makes a global one. #local:
+ * sets or makes one of the current scope. NULL: no memory. */
+struct symbol *symbols_declare(struct symbols *symbols, struct name *name,
+                               struct location at);
+struct symbol *symbols_local(struct symbols *symbols, struct name *name,
+                             struct location at);
+/* #undef: removes the most local declaration, if any. */
+void symbols_undefine(struct symbols *symbols, struct name *name);
+
+/* The declared name or keyword most like `name`, for "did you mean"; NULL if
+ * none is close. */
+const char *symbols_suggest(const struct symbols *symbols,
+                            const struct name *name);
+
+#endif
