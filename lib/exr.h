@@ -1,0 +1,38 @@
+/* exr.h - OpenEXR files through OpenEXR's C core.
+ *
+ * Errors are BRUME_ERR_FILE and name the file. Samples are passed as they
+ * are, NaN and infinity too. */
+#ifndef LIB_EXR_H
+#define LIB_EXR_H
+#include <stddef.h>
+#include "lib/error.h"
+#include "lib/image.h"
+
+struct exr_text {           /* a string of the file's header              */
+    const char *name, *value;
+};
+
+/* Writes a single-part scanline file: all channels 32-bit float, ZIP in
+ * blocks of 16 lines, data window = display window. The bytes depend on the
+ * arguments (and zlib) alone. The file appears only when it is complete. */
+bool exr_save(const char *path, const struct image *image,
+              const struct exr_text *text, size_t texts,
+              struct brume_error *err);
+
+struct exr_picture {
+    int width, height;          /* of the data window                     */
+    int x, y;                   /* its corner relative to the display's   */
+    int full_width, full_height;        /* the display window's size      */
+    size_t channels;
+    char (*name)[256];
+    float **plane;              /* per channel width * height samples     */
+};
+
+/* Reads all half, float and integer channels of a single-part file of scan
+ * lines or tiles (the largest level of these). */
+struct exr_picture *exr_load(const char *path, struct brume_error *err);
+void exr_free(struct exr_picture *picture);
+
+/* The plane of a channel, or NULL. */
+const float *exr_plane(const struct exr_picture *picture, const char *name);
+#endif
