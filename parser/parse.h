@@ -46,6 +46,12 @@ struct parse_input {
     const char *path;           /* the scene; "-" if text is not a file's  */
     const char *text;           /* read already (standard input); or NULL  */
     size_t length;              /* of text                                 */
+    const char *header;         /* a text included before the scene's first
+                                   token (+HI); or NULL                    */
+    double version;             /* of the language until #version says
+                                   otherwise (+MV); 0: 3.7                 */
+    bool full_transport;        /* transport is full unless the scene writes
+                                   it out (--transport full)               */
     /* Folders, in the order they are searched after the scene's own. */
     const char *const *library;
     size_t libraries;
@@ -59,6 +65,9 @@ struct parse_input {
     struct parse_limits limits;
     /* May be NULL. `text` ends with NUL and may hold line ends. */
     void (*message)(void *user, enum parse_stream stream, const char *text);
+    /* May be NULL. Asked now and then; true ends the parse at once with
+     * BRUME_STOPPED. */
+    bool (*stopped)(void *user);
     void *user;
 };
 
