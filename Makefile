@@ -1,70 +1,155 @@
-# Brume: `make` builds build/brume; `make demo` and `make test` need nothing
-# but git and make on a fresh Debian 12. Settings below, or in config.mak.
+# `make` builds build/brume. `make demo` and `make test` need nothing but git
+# and make on a fresh Debian 12: .ci/setup installs the rest for them.
+# Settings stand on the command line or in config.mak, which git ignores.
 -include config.mak
 PREFIX  ?= /usr/local
+DESTDIR ?=
 CC      ?= cc
 CXX     ?= c++
-CUDA    ?= $(if $(shell command -v nvcc),1,0)
+NVCC    ?= nvcc
+CUDA    ?= $(if $(shell command -v $(NVCC) 2>/dev/null),1,0)
+CUDA_ARCH ?= native
 SAN     ?= 0
 WERROR  ?= 1
 V       ?= 0
-B       ?= build
 
+# ---- compilers and libraries
+
+B       := build
 OPT     := -O2 -g
-WARN    := -Wall -Wextra -Wpedantic -Wvla $(if $(filter 1,$(WERROR)),-Werror)
-CWARN   := -Wmissing-prototypes -Wstrict-prototypes
-# Bytes must not depend on the processor: no contraction, no fast-math.
-FP      := -ffp-contract=off
+# The sanitizers have a folder of their own, so that both builds can stay.
 ifeq ($(SAN),1)
 B       := build/san
 OPT     := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer \
            -fno-sanitize-recover=undefined
 endif
-PC      := OpenEXR libpng jansson
-CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE $(shell pkg-config --cflags $(PC) 2>/dev/null)
-CFLAGS  ?=
-ALLC    := -std=c11 $(OPT) $(FP) $(WARN) $(CWARN) -fvisibility=hidden -pthread
-ALLCXX  := -std=c++17 $(OPT) $(FP) -Wall -Wextra -fvisibility=hidden
-LIBS    := $(shell pkg-config --libs OpenEXR libpng jansson 2>/dev/null) \
-           -lOpenEXRCore -lopenvdb -ltbb -lstdc++ -lm -pthread
-Q       := $(if $(filter 1,$(V)),,@)
+WARN    := -Wall -Wextra -Wpedantic -Wvla $(if $(filter 1,$(WERROR)),-Werror)
+# The bytes of a picture must not depend on the processor: no contraction of
+# a * b + c into one rounding, no fast-math.
+COMMON  := $(OPT) -ffp-contract=off -fvisibility=hidden -pthread $(WARN)
+C       := $(CC) -std=c11 $(COMMON) -Wmissing-prototypes -Wstrict-prototypes
+CPP     := $(CXX) -std=c++17 $(COMMON)
+CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
 
-LIB_SRC  := $(wildcard lib/*.c lib/*.cc)
-CORE_SRC := $(wildcard core/*.c core/cpu/*.c)
-PARSER_SRC := $(wildcard parser/*.c)
-GEN      :=
-objects  = $(patsubst %,$(B)/%.o,$(basename $(1)))
-COMMON   := $(call objects,$(LIB_SRC) $(CORE_SRC)) \
-            $(call objects,$(filter-out parser/main.c,$(PARSER_SRC)))
+PACKAGES := OpenEXR libpng jansson
+CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE \
+            $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
+# Debian has no .pc file for OpenVDB.
+LIBS    := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) \
+           -lopenvdb -ltbb -lstdc++ -lm -pthread
+
+# $(call run,VERB,COMMAND): the command, shown as a short line unless V=1.
+define run
+@mkdir -p $(@D)
+$(if $(filter 1,$(V)),$2,@echo '  $1	$@'; $2)
+endef
+
+# ---- sources
+
+objects  = $(patsubst %,$(B)/%.o,$(basename $1))
+programs = $(patsubst %.c,$(B)/%,$(wildcard $1/*.c))
+LIB      := $(call objects,$(wildcard lib/*.c lib/*.cc))
+CORE     := $(call objects,$(wildcard core/*.c core/cpu/*.c))
+CUDA_SRC := $(if $(filter 1,$(CUDA)),$(wildcard core/cuda/*.cu))
+PARSER   := $(call objects,$(wildcard parser/*.c))
+# What tests link of the front end: all but the program.
+FRONT    := $(filter-out $(B)/parser/main.o,$(PARSER))
+UNITS    := $(call programs,tests/unit)
+TOOLS    := $(call programs,tests/tools)
+ifneq ($(CUDA_SRC),)
+CORE     += $(call objects,$(CUDA_SRC))
+CPPFLAGS += -DBRUME_CUDA
+LIBS     += -lcudart_static -ldl -lrt
+endif
 
 .DELETE_ON_ERROR:
-.PHONY: all clean unit
-all: $(B)/brume
+.SECONDARY:
+.PHONY: all unit tools setup demo test test-all do-demo do-test do-test-all \
+        lint format install bundle clean
+PROGRAM  := $(if $(wildcard parser/main.c),$(B)/brume)
+all: $(PROGRAM)
 
-$(B)/brume: $(B)/parser/main.o $(COMMON)
-	$(if $(Q),@echo "  link  $@")
-	$(Q)$(CC) $(ALLC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+$(B)/brume: $(PARSER) $(B)/libbrume.a
+	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS))
+
+$(B)/libbrume.a: $(CORE) $(LIB)
+	$(call run,ar,rm -f $@ && $(AR) rcs $@ $^)
 
 $(B)/%.o: %.c
-	@mkdir -p $(@D)
-	$(if $(Q),@echo "  cc    $<")
-	$(Q)$(CC) $(CPPFLAGS) $(ALLC) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(call run,cc,$(C) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<)
 
 $(B)/%.o: %.cc
-	@mkdir -p $(@D)
-	$(if $(Q),@echo "  c++   $<")
-	$(Q)$(CXX) $(CPPFLAGS) $(ALLCXX) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+	$(call run,c++,$(CPP) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<)
 
-# Unit tests: one program a file, linked with everything but main.
-UNITS := $(patsubst tests/unit/%.c,$(B)/tests/unit/%,$(wildcard tests/unit/*.c))
-$(B)/tests/unit/%: tests/unit/%.c $(COMMON)
-	@mkdir -p $(@D)
-	$(if $(Q),@echo "  cc    $<")
-	$(Q)$(CC) $(CPPFLAGS) $(ALLC) $(CFLAGS) -MMD -MP -o $@ $< \
-	    $(COMMON) $(LDFLAGS) -lcmocka $(LIBS)
+$(B)/%.o: %.cu
+	$(call run,nvcc,$(CU) $(CPPFLAGS) -MMD -MP -c -o $@ $<)
+
+# One program a file; each test can be run by itself.
+$(UNITS) $(TOOLS): %: %.o $(FRONT) $(B)/libbrume.a
+	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) -lcmocka $(LIBS))
 unit: $(UNITS)
+tools: $(TOOLS)
+
+-include $(patsubst %.o,%.d,$(LIB) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d)
+
+# ---- the two commands
+# The variables above are made when make starts, before there may be a
+# compiler or pkg-config: so make starts anew after the set-up.
+
+setup:
+	@.ci/setup
+
+demo test test-all: setup
+	@+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$$(nproc)) do-$@
+
+do-demo: $(B)/brume
+	@mkdir -p $(B)/demo
+	$(B)/brume scenes/quickstart.pov +W640 +H480 +O$(B)/demo/quickstart.exr
+	$(B)/brume scenes/quickstart.pov +W640 +H480 +O$(B)/demo/quickstart.png
+	@echo 'The pictures are $(B)/demo/quickstart.exr and .png.'
+
+do-test: $(PROGRAM) $(UNITS) $(TOOLS)
+	@B=$(B) tests/run
+
+do-test-all: $(PROGRAM) $(UNITS) $(TOOLS)
+	@B=$(B) tests/run --all
+
+# ---- house-keeping
+
+lint:
+	@NVCC=$(if $(filter 1,$(CUDA)),$(NVCC)) CC='$(CC)' CXX='$(CXX)' tests/lint
+
+format:
+	clang-format -i $$(git ls-files '*.c' '*.cc' '*.cu')
+
+# The headers lie in one folder: #include <brume/brume.h>.
+HEADERS := core/brume.h lib/error.h lib/grid.h lib/mesh.h
+VERSION  = $(shell sed -n 's/^\#define BRUME_VERSION "\(.*\)"/\1/p' core/brume.h)
+ROOT     = $(DESTDIR)$(PREFIX)
+install: $(B)/brume
+	install -D -t $(ROOT)/bin $(B)/brume
+	install -D -m644 -t $(ROOT)/lib $(B)/libbrume.a
+	install -d $(ROOT)/include/brume $(ROOT)/lib/pkgconfig
+	for h in $(HEADERS); do sed 's|"\(core\|lib\)/|"|' $$h \
+	    >$(ROOT)/include/brume/$${h##*/} || exit; done
+	printf '%s\n' 'prefix=$${pcfiledir}/../..' 'Name: brume' \
+	    'Description: renderer of scenes with participating media' \
+	    'Version: $(VERSION)' 'Requires: $(PACKAGES)' \
+	    'Cflags: -I$${prefix}/include' \
+	    'Libs: -L$${prefix}/lib -lbrume $(filter-out $(shell pkg-config --libs $(PACKAGES)),$(LIBS))' \
+	    >$(ROOT)/lib/pkgconfig/brume.pc
+	for m in man/*.[1-8]; do install -D -m644 -t \
+	    $(ROOT)/share/man/man$${m##*.} $$m || exit; done
+	cd scenes && find . -type f -exec install -D -m644 {} \
+	    $(abspath $(ROOT))/share/brume/scenes/{} \;
+
+# A folder that runs from any place on any x86-64 Linux with glibc >= 2.36.
+bundle: $(B)/brume
+	rm -rf $(B)/bundle
+	$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(B)/bundle
+	$(C) $(CFLAGS) -s -o $(B)/bundle/bin/brume $(PARSER) $(B)/libbrume.a \
+	    $(LDFLAGS) $(LIBS) -Wl,--disable-new-dtags,-rpath,'$$ORIGIN/../lib'
+	.ci/bundle $(B)/bundle
 
 clean:
 	rm -rf build
-
--include $(shell find $(B) -name '*.d' 2>/dev/null)
