@@ -1,0 +1,125 @@
+// quickstart.pov - a campfire at night, and a cow that has come to look.
+//
+//   brume scenes/quickstart.pov +W640 +H480 +Ofire.png       one picture
+//   brume scenes/campfire.ini                                eight, animated
+//
+// Fire and smoke were simulated with Blender (README.md tells how); the rest
+// is plain scene language. Lengths are metres, and y is up.
+#version 3.7;
+
+#ifndef (brume)
+    #error "this scene uses Brume's words: vdb, fire, ply, transport"
+#end
+
+global_settings {
+    assumed_gamma 1
+    // Fire and moon light the smoke and the ground, and what these scatter
+    // lights on; the night sky lights a little too.
+    transport { media multiple surfaces indirect environment on }
+    accuracy 0.08       // stop at this relative error of the picture
+}
+
+camera {
+    location <1.15, 0.95, -3.3>
+    right x * image_width / image_height
+    angle 42
+    look_at <-0.22, 0.68, 0>
+}
+
+background { rgb <0.004, 0.006, 0.012> }
+
+// The moon, far away: parallel light, but for POV-Ray's units no dimmer.
+light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.04 }
+
+
+// ---- the ground
+
+plane {
+    y, 0
+    pigment { color rgb <0.30, 0.23, 0.17> }
+    finish { diffuse 0.9 ambient 0 }
+}
+
+// Stones lie around the fire, pebbles anywhere.
+#declare Chance = seed(7);
+
+#macro Stone(Place, Size)
+    sphere {
+        0, 1
+        scale Size * <1, 0.65 + 0.2 * rand(Chance), 0.8>
+        rotate y * 360 * rand(Chance)
+        translate Place
+        pigment { color rgb <0.42, 0.40, 0.38> * (0.6 + 0.6 * rand(Chance)) }
+        finish { diffuse 0.8 ambient 0 specular 0.15 roughness 0.05 }
+    }
+#end
+
+#declare Stones = 15;
+#for (I, 0, Stones - 1)
+    Stone(vrotate(<0.62, 0.03, 0>, y * 360 * (I + 0.4 * rand(Chance)) / Stones),
+          0.08 + 0.04 * rand(Chance))
+#end
+
+#for (I, 1, 220)
+    Stone(vrotate(<0.8 + 3.5 * rand(Chance), 0, 0>, y * 360 * rand(Chance)),
+          0.008 + 0.022 * pow(rand(Chance), 3))
+#end
+
+// ---- the wood
+
+#declare Bark = texture {
+    pigment { color rgb <0.16, 0.09, 0.05> }
+    finish { diffuse 0.8 ambient 0 }
+}
+
+#declare Logs = 6;
+#for (I, 0, Logs - 1)
+    cylinder {
+        <0.50, 0.05, 0>, <0.03, 0.24, 0.05>, 0.045 + 0.015 * rand(Chance)
+        rotate y * (360 * I / Logs + 20 * rand(Chance))
+        texture { Bark }
+    }
+#end
+
+// ---- the guest: Spot, by Keenan Crane
+
+mesh {
+    ply "campfire/spot.ply"
+    translate 0.737 * y         // on her feet
+    scale 0.62
+    rotate -128 * y             // her face to the fire
+    translate <-1.35, 0, 0.35>
+    pigment { color rgb <0.80, 0.76, 0.70> }
+    finish { diffuse 0.85 ambient 0 specular 0.2 roughness 0.03 }
+}
+
+// ---- fire and smoke
+
+// frame_number is 0 in a still.
+#declare Frame = (frame_number > 0 ? frame_number : 5);
+#declare File = concat("campfire/campfire_", str(Frame, -2, 0), ".vdb");
+
+// Blender's z is up: `up z` turns the grids. They fill the box from 0 to
+// <1.6, 2.4, 1.6>, with the fire in the middle of its floor.
+box {
+    0, <1.6, 2.4, 1.6>
+    hollow
+    pigment { rgbt 1 }
+    interior {
+        media {
+            density { density_file vdb File "density" up z }
+            scattering { 5, rgb 9 eccentricity 0.3 }
+            absorption rgb 3
+            fire {
+                temperature { density_file vdb File "temperature" up z }
+                amount { density_file vdb File "flame" up z }
+                kelvin 1000, 0          // the grid's 1 is 1000 K
+                intensity 4
+                brightness physical     // as a black body shines
+                reference 2000
+                coupling additive       // flames shine without smoke too
+            }
+        }
+    }
+    translate <-0.8, -0.03, -0.8>
+}
