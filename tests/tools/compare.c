@@ -142,12 +142,13 @@ static double beta_fraction(double a, double b, double x)
 static double student_two_sided(double t, double n)
 {
     double x = n / (n + t * t), a = n / 2, b = 0.5;
-    double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x)
-                       + b * log1p(-x));
     if (!(x < 1))
         return 1;
-    return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a
-                                     : 1 - front * beta_fraction(b, a, 1 - x) / b;
+    double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x)
+                       + b * log1p(-x));
+    if (x < (a + 1) / (a + b + 2))
+        return front * beta_fraction(a, b, x) / a;
+    return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
 struct bias {
