@@ -247,10 +247,13 @@ struct brume_options {
     bool (*progress)(void *user, const struct brume_progress *progress);
     void (*warn)(void *user, const char *text);
     void *user;
+    bool omit_background;       /* radiance without the background that the
+                                   camera sees past the scene, for pictures
+                                   with alpha                              */
 };
 #define BRUME_OPTIONS_INIT                                                    \
     {640, 480, 0, 0, 0, 0, BRUME_INTEGRATOR_PATH, BRUME_BACKEND_AUTO, 0, 0,   \
-     0, 0, 0, 0, 0, NULL, NULL, NULL}
+     0, 0, 0, 0, 0, NULL, NULL, NULL, false}
 /* The error aimed at when neither spp, error nor seconds is given, and the
  * most samples that an error is chased with. */
 #define BRUME_DEFAULT_ERROR 0.05
@@ -290,7 +293,8 @@ struct brume_stats {
 /* Row 0 is the top; pixels outside the rendered part are 0. */
 struct brume_frame {
     int width, height;
-    float *radiance;            /* 3 per pixel, background included        */
+    float *radiance;            /* 3 per pixel, background included unless
+                                   it was omitted                          */
     float *opacity;             /* 3 per pixel, 1 - transmittance of media and
                                    surfaces before the background          */
     float *depth;               /* distance along the view direction to the
