@@ -9,7 +9,7 @@
 #include "core/physics/rng.h"
 #include "core/physics/vec.h"
 
-enum { SAMPLER_RINGS = 32, SAMPLER_SECTORS = 8, SAMPLER_INNER = 512,
+enum { SAMPLER_RINGS = 32, SAMPLER_SECTORS = 8, SAMPLER_INNER = 256,
        SAMPLER_BINS = SAMPLER_RINGS * SAMPLER_SECTORS };
 
 /* `density` is a double so that a test may integrate more finely than a float
