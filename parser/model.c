@@ -1,0 +1,252 @@
+#include "parser/model.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- maps -------------------------------------------------------------- */
+
+transform model_transform_result(const struct transform_block *block)
+{
+    transform by = block->by;
+
+    if (block->inverse)
+        transform_inverse(&block->by, &by);
+    return by;
+}
+
+/* ---- surfaces ---------------------------------------------------------- */
+
+const struct texture model_default_texture = {
+    {BRUME_PIGMENT_SOLID,
+     {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}},
+     {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}},
+    {{0.1, 0.1, 0.1}, {0, 0, 0}, 0.6, 1, 0, 40, 0, 0.05, 0}};
+
+static int pigment_colors(const struct pigment *pigment)
+{
+    return pigment->kind == BRUME_PIGMENT_CHECKER ? 2 : 1;
+}
+
+/* A colour's own reflection counts 1 - filter - transmit, at least 0. */
+static bool color_is_clear(const double color[5])
+{
+    if (color[3] + color[4] < 1)
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (color[3] * color[i] + color[4] != 1)
+            return false;
+    return true;
+}
+
+bool model_is_invisible(const struct texture *texture)
+{
+    for (int i = 0; i < pigment_colors(&texture->pigment); i++)
+        if (!color_is_clear(texture->pigment.color[i]))
+            return false;
+    return texture->finish.phong == 0 && texture->finish.specular == 0;
+}
+
+bool model_is_opaque(const struct texture *texture)
+{
+    for (int i = 0; i < pigment_colors(&texture->pigment); i++) {
+        const double *color = texture->pigment.color[i];
+        if (color[3] != 0 || color[4] != 0)
+            return false;
+    }
+    return true;
+}
+
+void model_material(const struct texture *texture, const transform *by,
+                    struct brume_material *out)
+{
+    const struct pigment *pigment = &texture->pigment;
+    const struct finish *finish = &texture->finish;
+    transform placing = transform_then(&pigment->by, by);
+
+    memset(out, 0, sizeof *out);
+    out->pigment = pigment->kind;
+    memcpy(out->color, pigment->color, sizeof out->color);
+    if (pigment->kind == BRUME_PIGMENT_SOLID)
+        placing = transform_identity();
+    memcpy(out->pigment_transform, placing.m, sizeof placing.m);
+    memcpy(out->ambient, finish->ambient, sizeof out->ambient);
+    memcpy(out->emission, finish->emission, sizeof out->emission);
+    out->diffuse = finish->diffuse;
+    out->brilliance = finish->brilliance;
+    out->phong = finish->phong;
+    out->phong_size = finish->phong_size;
+    out->specular = finish->specular;
+    out->roughness = finish->roughness;
+    out->metallic = finish->metallic;
+}
+
+/* ---- media ------------------------------------------------------------- */
+
+/* How other programs read the same grids.
+ *
+ * Cycles, Principled Volume (Blender 3 and 4): T is the grid times 1000 K; it
+ * adds a colour of the black body's, whatever the density is.
+ * pbrt-v4 (GridMedium, NanoVDBMedium): T is the grid in kelvin; it emits
+ * sigma_a times a black body scaled to a peak of 1.
+ * Houdini, Pyro shader: 1 is 5000 K (Pyro Blackbody VOP); the colour is that
+ * of the black body, the brightness is left to the flame grid. */
+void model_fire_preset(struct fire *fire, enum fire_preset preset)
+{
+    static const struct {
+        double kelvin, reference;
+        int brightness, additive;
+    } row[] = {
+        [FIRE_CYCLES] = {1000, 2000, BRUME_BRIGHTNESS_CONSTANT, 1},
+        [FIRE_PBRT] = {1, 2000, BRUME_BRIGHTNESS_NORMALIZED, 0},
+        [FIRE_HOUDINI] = {5000, 2000, BRUME_BRIGHTNESS_CONSTANT, 1},
+    };
+
+    fire->kelvin[0] = row[preset].kelvin;
+    fire->kelvin[1] = 0;
+    fire->intensity = 1;
+    fire->reference = row[preset].reference;
+    fire->brightness = row[preset].brightness;
+    fire->additive = row[preset].additive;
+}
+
+static void density_transform(struct density *density, const transform *by)
+{
+    density->by = transform_then(&density->by, by);
+}
+
+void model_fire_transform(struct fire *fire, const transform *by)
+{
+    density_transform(&fire->temperature, by);
+    density_transform(&fire->amount, by);
+}
+
+void model_media_transform(struct media *media, const transform *by)
+{
+    for (int i = 0; i < media->densities; i++)
+        density_transform(&media->density[i], by);
+    model_fire_transform(&media->fire, by);
+}
+
+/* ---- objects ----------------------------------------------------------- */
+
+void model_object_transform(struct object *object, const transform *by)
+{
+    object->by = transform_then(&object->by, by);
+    object->texture.by = transform_then(&object->texture.by, by);
+    object->interior.by = transform_then(&object->interior.by, by);
+}
+
+/* ---- camera ------------------------------------------------------------ */
+
+const struct camera model_default_camera = {
+    .kind = BRUME_CAMERA_PERSPECTIVE,
+    .direction = {0, 0, 1},
+    .up = {0, 1, 0},
+    .right = {1.33, 0, 0},
+    .sky = {0, 1, 0},
+    .look_at = {0, 0, 1},
+    .by = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Leaves a vector of length 0 alone. */
+static void resize(double v[3], double to)
+{
+    double from = length(v);
+
+    for (int i = 0; i < 3; i++)
+        v[i] = from > 0 ? v[i] / from * to : v[i];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* -1 where right, up and direction are right-handed, as a scene written for a
+ * right-handed program has them by `right -x`. */
+static double handedness(const struct brume_camera *camera)
+{
+    double side[3];
+
+    cross(camera->up, camera->direction, side);
+    return side[0] * camera->right[0] + side[1] * camera->right[1] +
+           side[2] * camera->right[2] < 0 ? -1 : 1;
+}
+
+static enum camera_fault look_at(const struct camera *camera,
+                                 struct brume_camera *out)
+{
+    enum camera_fault fault = CAMERA_FINE;
+    double ahead = length(out->direction), height = length(out->up);
+    double width = length(out->right) * handedness(out);
+    double side[3], to[3];
+
+    for (int i = 0; i < 3; i++)
+        to[i] = camera->look_at[i] - camera->location[i];
+    if (length(to) < 1e-10)
+        return CAMERA_LOOKS_AT_ITSELF;
+    resize(to, 1);
+    cross(camera->sky, to, side);
+    if (length(side) < 1e-10) {
+        fault = CAMERA_SKY_AHEAD;
+        memcpy(side, out->right, sizeof side);
+    }
+    resize(side, 1);
+    cross(to, side, out->up);
+    memcpy(out->direction, to, sizeof to);
+    for (int i = 0; i < 3; i++) {
+        out->direction[i] *= ahead;
+        out->right[i] = side[i] * width;
+        out->up[i] *= height;
+    }
+    return fault;
+}
+
+/* The view that a perspective camera would have at the distance of look_at. */
+static void fit_orthographic(const struct camera *camera,
+                             struct brume_camera *out)
+{
+    double to[3];
+
+    for (int i = 0; i < 3; i++)
+        to[i] = camera->look_at[i] - camera->location[i];
+    double factor = length(to) / length(out->direction);
+    if (!(factor > 1e-10) || !isfinite(factor))
+        return;
+    for (int i = 0; i < 3; i++) {
+        out->right[i] *= factor;
+        out->up[i] *= factor;
+    }
+}
+
+enum camera_fault model_camera(const struct camera *camera,
+                               struct brume_camera *out)
+{
+    enum camera_fault fault = CAMERA_FINE;
+
+    memset(out, 0, sizeof *out);
+    out->kind = camera->kind;
+    memcpy(out->direction, camera->direction, sizeof out->direction);
+    memcpy(out->up, camera->up, sizeof out->up);
+    memcpy(out->right, camera->right, sizeof out->right);
+    if (camera->angle > 0)
+        resize(out->direction,
+               0.5 * length(out->right) /
+                   tan(camera->angle * (3.14159265358979323846 / 360)));
+    if (camera->has_look_at)
+        fault = look_at(camera, out);
+    if (camera->kind == BRUME_CAMERA_ORTHOGRAPHIC &&
+        (camera->angle > 0 || !(camera->has_up || camera->has_right)))
+        fit_orthographic(camera, out);
+    transform_point(&camera->by, camera->location, out->location);
+    transform_vector(&camera->by, out->direction, out->direction);
+    transform_vector(&camera->by, out->up, out->up);
+    transform_vector(&camera->by, out->right, out->right);
+    return fault;
+}

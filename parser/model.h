@@ -1,0 +1,176 @@
+/* model.h - what the scene language's values other than numbers hold.
+ *
+ * Nodes lie in the parse arena and never change once their statement is
+ * closed, so that identifiers share them; to modify one is to copy it. What
+ * can be transformed after it was made is kept as a pair of the node and the
+ * map that was applied since. Units are those of core/brume.h. */
+#ifndef PARSER_MODEL_H
+#define PARSER_MODEL_H
+#include <stdbool.h>
+#include <stddef.h>
+#include "core/brume.h"
+#include "parser/token.h"
+#include "parser/transform.h"
+
+/* ---- maps -------------------------------------------------------------- */
+
+/* transform { ... }: what `inverse` asks for is done when it is used. */
+struct transform_block {
+    transform by;
+    int inverse;
+};
+transform model_transform_result(const struct transform_block *block);
+
+/* ---- surfaces ---------------------------------------------------------- */
+
+struct pigment {
+    enum brume_pigment_kind kind;
+    double color[2][5];         /* red, green, blue, filter, transmit      */
+    transform by;               /* pattern space to the object's           */
+};
+
+struct finish {
+    double ambient[3], emission[3];
+    double diffuse, brilliance;
+    double phong, phong_size;
+    double specular, roughness;
+    double metallic;
+};
+
+struct texture {
+    struct pigment pigment;
+    struct finish finish;
+};
+
+/* POV-Ray's default texture: black, ambient 0.1, diffuse 0.6. */
+extern const struct texture model_default_texture;
+
+/* Nothing of a surface shows: it lets all light through and has no highlight.
+ * Such an object is but a container for its interior. */
+bool model_is_invisible(const struct texture *texture);
+/* No light comes through, so that layers below it do not show. */
+bool model_is_opaque(const struct texture *texture);
+/* `by` is applied to the texture after its own maps. */
+void model_material(const struct texture *texture, const transform *by,
+                    struct brume_material *out);
+
+/* ---- media ------------------------------------------------------------- */
+
+/* One factor of a medium's density: a colour, or a grid times that colour. */
+struct density {
+    bool has_grid;
+    int grid;                   /* id in core                              */
+    double color[3];
+    transform by;               /* the grid's own world to the object's    */
+};
+
+struct fire {
+    bool on;
+    bool has_amount;
+    struct density temperature, amount;
+    double kelvin[2];           /* factor and offset                       */
+    double intensity, reference;
+    int brightness;             /* enum brume_brightness                   */
+    int additive;               /* 1: density has no say                   */
+    int preset;                 /* enum fire_preset; -1: none              */
+};
+
+/* The values of the word `preset`. */
+enum fire_preset { FIRE_CYCLES, FIRE_PBRT, FIRE_HOUDINI };
+void model_fire_preset(struct fire *fire, enum fire_preset preset);
+void model_fire_transform(struct fire *fire, const transform *by);
+
+struct media {
+    double absorption[3], emission[3], scattering[3];
+    int type;                   /* enum brume_phase, of scattering         */
+    double eccentricity, extinction;
+    double tint[3];             /* product of all the densities' colours   */
+    struct density density[BRUME_MAX_DENSITIES];
+    int densities;
+    struct fire fire;
+};
+/* Applies `by` to the densities and the fire's fields that are there now. */
+void model_media_transform(struct media *media, const transform *by);
+
+struct interior {
+    const struct media *media[BRUME_MAX_INTERIOR_MEDIA];
+    int count;
+    bool warned;                /* that it sits in a solid object          */
+};
+
+/* ---- objects ----------------------------------------------------------- */
+
+struct placed_texture {
+    const struct texture *what;     /* NULL: none                          */
+    transform by;
+};
+
+struct placed_interior {
+    struct interior *what;          /* NULL: none                          */
+    transform by;
+};
+
+struct material {
+    struct placed_texture texture;
+    struct placed_interior interior;
+};
+
+/* Read from a file or from triangles; given to core when first placed. */
+struct model_mesh {
+    struct mesh *mesh;              /* freed once core has it              */
+    int id;                         /* in core, or -1                      */
+    struct model_mesh *next;        /* of all meshes of the scene          */
+};
+
+enum object_kind { OBJECT_SHAPE, OBJECT_MESH, OBJECT_UNION, OBJECT_LIGHT };
+
+struct object {
+    enum object_kind kind;
+    const char *word;               /* the statement's keyword             */
+    struct location at;
+    struct brume_shape shape;       /* kind, a, b, radii, open             */
+    struct model_mesh *mesh;
+    double inside[3];               /* inside_vector of a mesh; 0: none    */
+    struct brume_light light;
+    struct child *first, *last;     /* of a union                          */
+    transform by;                   /* all maps of this statement          */
+    struct placed_texture texture;
+    struct placed_interior interior;
+    bool hollow, says_hollow;       /* else as the union it is in          */
+    bool inverse, shadow;
+};
+
+struct child {
+    const struct object *object;
+    struct child *next;
+};
+
+/* Applies a map to an object and to what it has by now. */
+void model_object_transform(struct object *object, const transform *by);
+
+/* ---- camera ------------------------------------------------------------ */
+
+struct camera {
+    enum brume_camera_kind kind;
+    double location[3], direction[3], up[3], right[3], sky[3], look_at[3];
+    double angle;                   /* degrees; 0: none                    */
+    bool has_look_at, has_up, has_right;
+    transform by;
+    struct location at;
+};
+extern const struct camera model_default_camera;
+
+/* Turns what a camera statement says into the four vectors, in POV-Ray's
+ * order: the angle sets the length of direction, look_at turns all of them
+ * about sky, an orthographic view is fitted to the distance of look_at, and
+ * the transformations come last, wherever they are written. */
+enum camera_fault {
+    CAMERA_FINE,
+    CAMERA_LOOKS_AT_ITSELF,         /* look_at is the location             */
+    CAMERA_SKY_AHEAD                /* fine, but sky is the way it looks:
+                                       right stays as it was given         */
+};
+enum camera_fault model_camera(const struct camera *camera,
+                               struct brume_camera *out);
+
+#endif
