@@ -307,7 +307,16 @@ static void find_range(struct grid *g)
     }
 }
 
-/* Gives back what was removed; keeps the capacity that grow() counts on. */
+/* The capacity that grow() counts on for so many items. */
+static size_t power_capacity(size_t count)
+{
+    size_t capacity = 1;
+    while (capacity < count)
+        capacity *= 2;
+    return capacity;
+}
+
+/* Gives back what was removed. */
 static void trim(struct grid *g)
 {
     if (g->stored == 0) {
@@ -315,9 +324,7 @@ static void trim(struct grid *g)
         g->voxel = NULL;
         return;
     }
-    size_t capacity = 1;
-    while (capacity < g->stored)
-        capacity *= 2;
+    size_t capacity = power_capacity(g->stored);
     float *voxel = realloc(g->voxel, capacity * GRID_BRICK_VOXELS *
                                          sizeof *voxel);
     if (voxel)
@@ -332,4 +339,33 @@ void grid_finish(struct grid *g)
     compact_bricks(g);
     find_range(g);
     trim(g);
+}
+
+static void *copy_array(const void *from, size_t used, size_t count,
+                        size_t size, struct brume_error *err)
+{
+    void *out = memory_new(count, size, err);
+    if (out && used > 0)
+        memcpy(out, from, used * size);
+    return out;
+}
+
+struct grid *grid_copy(const struct grid *g, struct brume_error *err)
+{
+    struct grid *out = memory_new(1, sizeof *out, err);
+    if (!out)
+        return NULL;
+    size_t slots = brick_count(g);
+    *out = *g;
+    out->slot = copy_array(g->slot, slots, slots, sizeof *g->slot, err);
+    out->tile = copy_array(g->tile, g->tiles, power_capacity(g->tiles),
+                           sizeof *g->tile, err);
+    out->voxel = copy_array(g->voxel, g->stored * GRID_BRICK_VOXELS,
+                            power_capacity(g->stored) * GRID_BRICK_VOXELS,
+                            sizeof *g->voxel, err);
+    if (!out->slot || !out->tile || !out->voxel) {
+        grid_free(out);
+        return NULL;
+    }
+    return out;
 }

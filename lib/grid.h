@@ -42,6 +42,7 @@ struct grid {
 struct grid *grid_new(const int32_t origin[3], const int32_t bricks[3],
                       float background, struct brume_error *err);
 void grid_free(struct grid *g);
+struct grid *grid_copy(const struct grid *g, struct brume_error *err);
 
 /* The 512 samples of a brick, made (filled with its constant) if it was a
  * constant. Earlier pointers become invalid. NULL: out of memory, err set. */

@@ -168,3 +168,44 @@ bool mesh_check(const struct mesh *m, struct brume_error *err)
             return false;
     return true;
 }
+
+/* A copy of `count` items; NULL stays NULL. *good turns false where there is
+ * no memory. */
+static void *copy_items(const void *from, size_t count, size_t size,
+                        bool *good, struct brume_error *err)
+{
+    if (!from)
+        return NULL;
+    void *out = memory_new(count, size, err);
+    if (!out)
+        *good = false;
+    else
+        memcpy(out, from, count * size);
+    return out;
+}
+
+struct mesh *mesh_copy(const struct mesh *m, struct brume_error *err)
+{
+    struct mesh *out = memory_new(1, sizeof *out, err);
+    bool good = true;
+    if (!out)
+        return NULL;
+    *out = *m;
+#define COPY(array, count)                                                    \
+    out->array = copy_items(m->array, m->count, sizeof *m->array, &good, err)
+    COPY(position, vertices);
+    COPY(normal, normals);
+    COPY(uv, uvs);
+    COPY(corner, triangles);
+    COPY(corner_normal, triangles);
+    COPY(corner_uv, triangles);
+#undef COPY
+    out->vertex_capacity = m->vertices;
+    out->normal_capacity = m->normals;
+    out->uv_capacity = m->uvs;
+    out->triangle_capacity = m->triangles;
+    if (good)
+        return out;
+    mesh_free(out);
+    return NULL;
+}

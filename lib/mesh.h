@@ -19,6 +19,7 @@ struct mesh {
 
 struct mesh *mesh_new(struct brume_error *err);
 void mesh_free(struct mesh *m);
+struct mesh *mesh_copy(const struct mesh *m, struct brume_error *err);
 
 /* Append one item and return true; false with err set when out of memory or
  * beyond 2^32 - 2 items. */
