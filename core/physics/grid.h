@@ -1,0 +1,75 @@
+/* grid.h - lookup in a flat grid of bricks, and the fields made of it. */
+#ifndef CORE_PHYSICS_GRID_H
+#define CORE_PHYSICS_GRID_H
+#include "core/physics/scene.h"
+
+/* Floor to int for |x| < 2^31. */
+HD int grid_floor(float x)
+{
+    int i = (int)x;
+    return i - (x < (float)i);
+}
+
+HD float grid_lerp(float a, float b, float t)
+{
+    return a + t * (b - a);
+}
+
+HD float grid_trilinear(const float *v, float fx, float fy, float fz)
+{
+    const int dy = BRICK_SIDE, dz = BRICK_SIDE * BRICK_SIDE;
+    float a = grid_lerp(grid_lerp(v[0], v[1], fx),
+                        grid_lerp(v[dy], v[dy + 1], fx), fy);
+    float b = grid_lerp(grid_lerp(v[dz], v[dz + 1], fx),
+                        grid_lerp(v[dz + dy], v[dz + dy + 1], fx), fy);
+    return grid_lerp(a, b, fz);
+}
+
+HD bool grid_clipped(const flat_grid *g, vec3 p)
+{
+    return p.x < g->clip_min[0] || p.x > g->clip_max[0] ||
+           p.y < g->clip_min[1] || p.y > g->clip_max[1] ||
+           p.z < g->clip_min[2] || p.z > g->clip_max[2];
+}
+
+/* Value at a point of index space. */
+HD float grid_lookup(const flat_scene *s, const flat_grid *g, vec3 p)
+{
+    if (g->clip && grid_clipped(g, p))
+        return 0.0f;
+    if (g->nearest)
+        p = vec3_add(p, vec3_make(0.5f, 0.5f, 0.5f));
+    /* Local to the grid before conversion, so that huge points compare as
+     * outside; NaN fails every test. */
+    p = vec3_sub(p, vec3_make((float)g->origin[0], (float)g->origin[1],
+                              (float)g->origin[2]));
+    if (!(p.x >= 0.0f && p.x < (float)(8 * g->bricks[0]) && p.y >= 0.0f &&
+          p.y < (float)(8 * g->bricks[1]) && p.z >= 0.0f &&
+          p.z < (float)(8 * g->bricks[2])))
+        return s->tiles[g->tile];
+    int x = (int)p.x, y = (int)p.y, z = (int)p.z;
+    uint64_t brick = (uint64_t)(x >> 3) +
+        (uint64_t)g->bricks[0] * ((uint64_t)(y >> 3) +
+                                  (uint64_t)g->bricks[1] * (uint64_t)(z >> 3));
+    int32_t slot = s->slots[g->slot + brick];
+    if (slot < 0)
+        return s->tiles[g->tile + (uint64_t)(-1 - slot)];
+    const float *v = s->voxels +
+        (g->brick + (uint64_t)slot) * BRICK_FLOATS +
+        ((z & 7) * BRICK_SIDE + (y & 7)) * BRICK_SIDE + (x & 7);
+    return g->nearest ? v[0]
+                      : grid_trilinear(v, p.x - (float)x, p.y - (float)y,
+                                       p.z - (float)z);
+}
+
+/* Value of a field at a point of unit space. */
+HD float field_eval(const flat_scene *s, int field, vec3 p)
+{
+    const flat_field *f = &s->fields[field];
+    if (f->kind == FIELD_CONSTANT)
+        return f->scale;
+    return f->scale * grid_lookup(s, &s->grids[f->grid],
+                                  affine_point(&f->to_index, p));
+}
+
+#endif

@@ -1,0 +1,94 @@
+/* hit.h - what a ray finds at a hit: position, normals, material, pigment. */
+#ifndef CORE_PHYSICS_HIT_H
+#define CORE_PHYSICS_HIT_H
+#include "core/physics/bvh.h"
+#include "core/physics/surface.h"
+
+typedef struct {
+    vec3 p;
+    vec3 ng, ns;            /* geometric and shading normals, unit, on the
+                               side that the ray comes from                */
+    rgb color;              /* pigment                                     */
+    float opacity;          /* 1 - filter - transmit, in [0, 1]            */
+    rgb pass;               /* filter color + transmit                     */
+    const flat_material *material;
+} hit_point;
+
+HD vec3 hit_position(const flat_scene *s, const bvh_ray *r, const ray_hit *h)
+{
+    if (h->triangle < 0)
+        return vec3_mad(r->o, h->t, r->d);
+    /* Barycentric: closer to the triangle than the ray is at a far hit. */
+    const flat_triangle *f = &s->triangles[h->triangle];
+    vec3 p = vec3_scale(f->p[0], 1.0f - h->u - h->v);
+    p = vec3_mad(p, h->u, f->p[1]);
+    return vec3_mad(p, h->v, f->p[2]);
+}
+
+HD void hit_triangle_normals(const flat_scene *s, const ray_hit *h,
+                             vec3 *ng, vec3 *ns)
+{
+    const flat_triangle *f = &s->triangles[h->triangle];
+    *ng = vec3_normalize(vec3_cross(vec3_sub(f->p[1], f->p[0]),
+                                    vec3_sub(f->p[2], f->p[0])));
+    *ns = *ng;
+    if (f->smooth < 0)
+        return;
+    const vec3 *n = s->normals + f->smooth;
+    vec3 mean = vec3_scale(n[0], 1.0f - h->u - h->v);
+    mean = vec3_mad(mean, h->u, n[1]);
+    mean = vec3_normalize(vec3_mad(mean, h->v, n[2]));
+    if (vec3_dot(mean, mean) > 0.0f)
+        *ns = mean;
+}
+
+HD vec3 hit_shape_normal(const flat_scene *s, const bvh_ray *r,
+                         const ray_hit *h)
+{
+    const flat_shape *f = &s->shapes[h->shape];
+    vec3 local = vec3_mad(affine_point(&f->to_local, r->o), h->t,
+                          affine_vector(&f->to_local, r->d));
+    vec3 n = shape_normal(f->kind, f->params, local, h->surface);
+    return vec3_normalize(affine_normal(&f->to_local, n));
+}
+
+HD int hit_checker(const flat_material *m, vec3 p)
+{
+    return m->checker ? surface_checker(affine_point(&m->to_pattern, p)) : 0;
+}
+
+HD rgb hit_transparency(const flat_scene *s, const bvh_ray *r,
+                        const ray_hit *h)
+{
+    const flat_material *m = &s->materials[s->shapes[h->shape].material];
+    int i = hit_checker(m, hit_position(s, r, h));
+    return rgb_add(rgb_scale(m->color[i], m->filter[i]),
+                   rgb_gray(m->transmit[i]));
+}
+
+/* The hit's shape has a material. */
+HD hit_point hit_resolve(const flat_scene *s, const bvh_ray *r,
+                         const ray_hit *h)
+{
+    hit_point out;
+    const flat_material *m = &s->materials[s->shapes[h->shape].material];
+    out.material = m;
+    out.p = hit_position(s, r, h);
+    if (h->triangle >= 0)
+        hit_triangle_normals(s, h, &out.ng, &out.ns);
+    else
+        out.ng = out.ns = hit_shape_normal(s, r, h);
+    if (vec3_dot(out.ng, r->d) > 0.0f)
+        out.ng = vec3_scale(out.ng, -1.0f);
+    if (vec3_dot(out.ns, out.ng) < 0.0f)
+        out.ns = vec3_scale(out.ns, -1.0f);
+    int i = hit_checker(m, out.p);
+    out.color = m->color[i];
+    out.opacity = fminf(fmaxf(1.0f - m->filter[i] - m->transmit[i], 0.0f),
+                        1.0f);
+    out.pass = rgb_add(rgb_scale(out.color, m->filter[i]),
+                       rgb_gray(m->transmit[i]));
+    return out;
+}
+
+#endif

@@ -1,0 +1,45 @@
+/* inside.h - which containers of media a point lies in. */
+#ifndef CORE_PHYSICS_INSIDE_H
+#define CORE_PHYSICS_INSIDE_H
+#include "core/physics/bvh.h"
+#include "core/physics/walk.h"
+
+/* A mesh's first boundary along some ray tells: it is left, or entered. */
+HD bool inside_mesh(const flat_scene *s, int32_t shape, vec3 p)
+{
+    vec3 d = vec3_make(0.5626f, 0.6874f, 0.4593f);
+    bvh_ray r = bvh_ray_make(p, d);
+    ray_hit after = hit_start(0.0f);
+    for (;;) {
+        ray_hit h = bvh_nearest(s, &r, &after, INFINITY);
+        if (h.shape < 0)
+            return (s->shapes[shape].flags & SHAPE_INVERSE) != 0;
+        if (h.shape == shape)
+            return !hit_enters(s, &h, d);
+        after = h;
+    }
+}
+
+HD bool inside_shape(const flat_scene *s, int32_t shape, vec3 p)
+{
+    const flat_shape *f = &s->shapes[shape];
+    if (f->kind == SHAPE_MESH)
+        return f->triangles > 0 && inside_mesh(s, shape, p);
+    bool in = shape_inside(f->kind, f->params,
+                           affine_point(&f->to_local, p));
+    return in != ((f->flags & SHAPE_INVERSE) != 0);
+}
+
+/* All hollow shapes with media around the point p. */
+HD void inside_find(const flat_scene *s, vec3 p, container_set *set)
+{
+    set->count = 0;
+    for (uint64_t i = 0; i < s->shapes_count; i++) {
+        const flat_shape *f = &s->shapes[i];
+        if (f->interior >= 0 && (f->flags & SHAPE_HOLLOW) &&
+            inside_shape(s, (int32_t)i, p))
+            container_enter(set, (int32_t)i);
+    }
+}
+
+#endif

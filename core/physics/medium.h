@@ -1,0 +1,59 @@
+/* medium.h - a medium at a point: coefficients and emitted source.
+ *
+ * Coefficients are per unit-space length; `source` is radiance per length. */
+#ifndef CORE_PHYSICS_MEDIUM_H
+#define CORE_PHYSICS_MEDIUM_H
+#include "core/physics/grid.h"
+
+enum { BRIGHTNESS_PHYSICAL, BRIGHTNESS_NORMALIZED, BRIGHTNESS_CONSTANT };
+
+/* Product of the medium's density fields. */
+HD float medium_density(const flat_scene *s, const flat_medium *m, vec3 p)
+{
+    float d = 1.0f;
+    for (int i = 0; i < m->densities && d != 0.0f; i++)
+        d *= field_eval(s, m->density[i], p);
+    return d;
+}
+
+/* Colour and strength of thermal emission at `kelvin`, as the fire's
+ * brightness says. Planck's law in linear Rec.709; `intensity` holds the
+ * reference luminance. */
+HD rgb fire_color(const flat_scene *s, const flat_medium *m, float kelvin)
+{
+    rgb c = blackbody_rgb(s->blackbody, kelvin);
+    float scale = m->intensity;
+    if (m->brightness != BRIGHTNESS_PHYSICAL) {
+        float size = m->brightness == BRIGHTNESS_CONSTANT ? rgb_luminance(c)
+                                                          : rgb_max(c);
+        if (!(size > 0.0f))
+            return rgb_gray(0.0f);
+        scale /= size;
+    }
+    return rgb_scale(c, scale);
+}
+
+HD rgb fire_source(const flat_scene *s, const flat_medium *m, vec3 p,
+                   float density)
+{
+    if (!m->additive && density == 0.0f)
+        return rgb_gray(0.0f);
+    float amount = m->amount >= 0 ? field_eval(s, m->amount, p) : 1.0f;
+    if (amount == 0.0f)
+        return rgb_gray(0.0f);
+    float kelvin = m->kelvin_offset +
+                   m->kelvin_scale * field_eval(s, m->temperature, p);
+    rgb c = rgb_scale(fire_color(s, m, kelvin), amount);
+    return m->additive ? c : rgb_mul(c, rgb_scale(m->sigma_a, density));
+}
+
+/* Radiance per length that the medium emits at p, where its density is
+ * `density`. */
+HD rgb medium_source(const flat_scene *s, const flat_medium *m, vec3 p,
+                     float density)
+{
+    rgb q = rgb_scale(m->emission, density);
+    return m->fire ? rgb_add(q, fire_source(s, m, p, density)) : q;
+}
+
+#endif

@@ -1,0 +1,488 @@
+/* path.h - the reference integrator: unbiased null-collision path tracing.
+ *
+ * A path carries its throughput beta and the ratio r_u of its sampling
+ * density in each channel to that in the channel that drives it, chosen
+ * uniformly once a path: beta / mean(r_u) is the balance heuristic over
+ * drivers (Miller, Georgiev, Jarosz 2019; METHODS.md 1.2). Shadow rays weigh
+ * by direction alone.
+ *
+ * What is transported is the scene's to say: a bounce is followed where the
+ * scene's transport has it, and a ray that is followed finds all emission. On
+ * the straight line from the eye, emission of media and the background are
+ * march.h's, which has no noise; the path leaves them out there. */
+#ifndef CORE_PHYSICS_PATH_H
+#define CORE_PHYSICS_PATH_H
+#include "core/physics/glow.h"
+#include "core/physics/light.h"
+#include "core/physics/line.h"
+#include "core/physics/phase.h"
+#include "core/physics/shadow.h"
+#include "core/physics/warp.h"
+
+enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
+
+typedef struct {
+    rgb beta, r_u;
+    rgb radiance;           /* gathered so far                             */
+    int32_t driver;
+    int32_t straight;       /* still on the line from the eye              */
+    float p_dir;            /* density per solid angle with which d was
+                               chosen at o; 0: not chosen                  */
+    vec3 o, d;
+    ray_hit after;          /* the ray goes on behind this                 */
+    container_set inside;
+    rng random;
+    track_counters count;
+} path_state;
+
+HD void path_add(path_state *p, rgb value)
+{
+    p->radiance = rgb_add(p->radiance,
+                          rgb_scale(value, 1.0f / rgb_mean(p->r_u)));
+}
+
+/* Uniform in (0, 1), fine near 0 for rare events. */
+HD float path_fine(rng *r)
+{
+    return ((float)rng_u32(r) + 0.5f) * 2.32830644e-10f;
+}
+
+/* ---- media between two surfaces ---------------------------------------- */
+
+/* Coefficients of all active media at a tentative collision. */
+typedef struct {
+    rgb sigma_s[MAX_ACTIVE];
+    rgb all_s, all_a, all_t;    /* sums; all_t is what attenuates          */
+} path_point;
+
+HD void path_point_at(const flat_scene *s, path_state *p,
+                      const media_walk *w, float t, rgb majorant,
+                      path_point *out)
+{
+    vec3 x = vec3_mad(p->o, t, p->d);
+    rgb source = rgb_gray(0.0f);
+    out->all_s = out->all_a = out->all_t = source;
+    for (int i = 0; i < w->count; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        const majorant_cell *bound = &w->part[i].bound;
+        out->sigma_s[i] = rgb_gray(0.0f);
+        if (bound->density == 0.0f && bound->rate == 0.0f)
+            continue;
+        float density = medium_density(s, m, x);
+        p->count.lookups++;
+        out->sigma_s[i] = rgb_scale(m->sigma_s, density);
+        out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
+        out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
+        out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
+        if (bound->rate == 0.0f || p->straight)
+            continue;
+        rgb q = medium_source(s, m, x, density);
+        if (rgb_is_black(q))
+            continue;
+        float share = glow_ray_share(s, w->part[i].medium, x, t, p->p_dir);
+        source = rgb_add(source, rgb_scale(q, share));
+    }
+    if (!rgb_is_black(source))
+        p->radiance = rgb_add(p->radiance,
+            rgb_scale(rgb_mul(p->beta, source),
+                      1.0f / rgb_mean(rgb_mul(p->r_u, majorant))));
+}
+
+HD rgb path_majorant(const flat_scene *s, const media_walk *w)
+{
+    rgb sum = rgb_gray(0.0f);
+    for (int i = 0; i < w->count; i++) {
+        const majorant_cell *b = &w->part[i].bound;
+        rgb sigma = rgb_scale(s->media[w->part[i].medium].bound, b->density);
+        sum = rgb_add(sum, rgb_add(sigma, rgb_gray(b->rate)));
+    }
+    return sum;
+}
+
+/* Majorant transmittance of each channel over that of the driver. */
+HD void path_fly(path_state *p, rgb majorant, float distance)
+{
+    float driver = rgb_get(majorant, p->driver);
+    rgb over = rgb_sub(majorant, rgb_gray(driver));
+    if (rgb_is_black(over))
+        return;
+    rgb ratio = rgb_make(fm_exp(-over.r * distance),
+                         fm_exp(-over.g * distance),
+                         fm_exp(-over.b * distance));
+    p->beta = rgb_mul(p->beta, ratio);
+    p->r_u = rgb_mul(p->r_u, ratio);
+}
+
+HD int path_null(path_state *p, const path_point *at, rgb majorant)
+{
+    rgb chance = rgb_sub(majorant, rgb_add(at->all_a, at->all_s));
+    float driver = rgb_get(chance, p->driver);
+    if (!(driver > 0.0f))
+        return PATH_ENDED;      /* density 0: drawn by rounding only */
+    float scale = 1.0f / driver;
+    p->beta = rgb_mul(p->beta, rgb_scale(rgb_sub(majorant, at->all_t),
+                                         scale));
+    p->r_u = rgb_mul(p->r_u, rgb_scale(chance, scale));
+    return PATH_THROUGH;
+}
+
+/* What happens at a tentative collision. On PATH_SCATTERED *which is the
+ * medium's place in the walk. */
+HD int path_collide(path_state *p, const media_walk *w,
+                    const path_point *at, rgb majorant, int *which)
+{
+    float m = rgb_get(majorant, p->driver);
+    if (rgb_get(rgb_add(at->all_a, at->all_s), p->driver) > m * 1.00001f)
+        p->count.majorant_exceeded++;
+    float x = path_fine(&p->random) * m;
+    for (int i = 0; i < w->count; i++) {
+        float sigma = rgb_get(at->sigma_s[i], p->driver);
+        if (x < sigma) {
+            rgb ratio = rgb_scale(at->sigma_s[i], 1.0f / sigma);
+            p->beta = rgb_mul(p->beta, ratio);
+            p->r_u = rgb_mul(p->r_u, ratio);
+            *which = i;
+            return PATH_SCATTERED;
+        }
+        x -= sigma;
+    }
+    if (x < rgb_get(at->all_a, p->driver))
+        return PATH_ENDED;
+    return path_null(p, at, majorant);
+}
+
+/* Delta tracking to t1. On PATH_SCATTERED, *t and *medium tell where. */
+HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
+                  int *medium)
+{
+    float tau = rng_optical_depth(&p->random);
+    do {
+        rgb majorant = path_majorant(s, w);
+        float driver = rgb_get(majorant, p->driver);
+        *t = w->t;
+        for (;;) {
+            float left = driver * (w->t_end - *t);
+            if (!(tau < left)) {
+                path_fly(p, majorant, w->t_end - *t);
+                tau -= left;
+                break;
+            }
+            path_fly(p, majorant, tau / driver);
+            *t += tau / driver;
+            tau = rng_optical_depth(&p->random);
+            path_point at;
+            int which;
+            path_point_at(s, p, w, *t, majorant, &at);
+            int event = path_collide(p, w, &at, majorant, &which);
+            if (event == PATH_SCATTERED) {
+                *medium = w->part[which].medium;
+                p->count.collisions++;
+            }
+            if (event != PATH_THROUGH)
+                return event;
+        }
+    } while (walk_next(s, w));
+    return PATH_THROUGH;
+}
+
+HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
+{
+    for (int i = 0; i < w->count; i++)
+        if (!rgb_is_black(s->media[w->part[i].medium].sigma_s))
+            return true;
+    return false;
+}
+
+/* Where nothing scatters, the line integral is exact. */
+HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
+{
+    line_integral line;
+    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line.radiance = rgb_gray(0.0f);
+    line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
+                   &line);
+    path_add(p, rgb_mul(p->beta, line.radiance));
+    p->beta = rgb_mul(p->beta, line_transmittance(&line));
+    return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;
+}
+
+HD int path_media(const flat_scene *s, path_state *p, float t1, float *t,
+                  int *medium)
+{
+    media_walk w;
+    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    p->count.overflow += w.overflow;
+    if (w.count == 0)
+        return PATH_THROUGH;
+    if (!path_walk_scatters(s, &w))
+        return path_line(s, p, p->after.t, t1);
+    return path_track(s, p, &w, t, medium);
+}
+
+/* ---- light that reaches a vertex --------------------------------------- */
+
+/* What a vertex makes of light from direction wi. */
+typedef struct {
+    vec3 p, d;              /* d: direction of the ray that came there     */
+    const flat_medium *medium;      /* or NULL: a surface                  */
+    const hit_point *surface;
+} path_vertex;
+
+/* Radiance toward the eye per light C at a surface or per 4 pi C (pi C in
+ * physical units) in a medium. */
+HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi)
+{
+    if (v->surface)
+        return surface_light(v->surface->material, v->surface->color,
+                             v->surface->opacity, v->surface->ns,
+                             vec3_scale(v->d, -1.0f), wi);
+    float p = phase_eval(v->medium->phase, v->medium->g,
+                         vec3_dot(v->d, wi));
+    return rgb_gray(p * phase_pov_scale(v->medium->phase) *
+                    light_medium_factor(s));
+}
+
+/* Where a ray that leaves the vertex toward wi starts. */
+HD vec3 path_origin(const path_vertex *v, vec3 wi)
+{
+    if (!v->surface)
+        return v->p;
+    vec3 n = v->surface->ng;
+    return surface_offset(v->p, vec3_dot(n, wi) < 0.0f ? vec3_scale(n, -1.0f)
+                                                       : n);
+}
+
+HD bool path_faces(const path_vertex *v, vec3 wi)
+{
+    return !v->surface || vec3_dot(v->surface->ng, wi) > 0.0f;
+}
+
+/* Next-event estimation to one of the lights. */
+HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    light_sample l;
+    if (!light_choose(s, v->p, &p->random, &l) || !path_faces(v, l.wi))
+        return;
+    const flat_light *light = &s->lights[l.light];
+    if (v->medium && !light->media_interaction)
+        return;
+    rgb value = rgb_mul(path_response(s, v, l.wi), l.color);
+    if (rgb_is_black(value))
+        return;
+    if (light->shadows) {
+        container_set set = p->inside;
+        rgb left = shadow_transmittance(s, &set,
+            s->media_multiple || light->media_attenuation != 0,
+            path_origin(v, l.wi), l.wi, l.distance, &p->random, &p->count);
+        value = rgb_mul(value, left);
+    }
+    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l.probability));
+}
+
+/* Radiance per incident radiance and solid angle, cosine included, of light
+ * that bounces at the vertex; *pdf is path_bounce's density. */
+HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
+{
+    if (v->surface) {
+        float cosine = vec3_dot(v->surface->ns, wi);
+        *pdf = fmaxf(cosine, 0.0f) * WARP_INV_PI;
+        return rgb_scale(surface_matte(v->surface->material,
+                                       v->surface->color,
+                                       v->surface->opacity, cosine),
+                         WARP_INV_PI);
+    }
+    *pdf = phase_eval(v->medium->phase, v->medium->g, vec3_dot(v->d, wi));
+    return rgb_gray(*pdf);
+}
+
+HD bool path_medium_at(const flat_scene *s, const container_set *set,
+                       int medium)
+{
+    for (int i = -1; i < set->count; i++) {
+        int32_t interior = i < 0 ? s->atmosphere
+                                 : s->shapes[set->shape[i]].interior;
+        if (interior < 0)
+            continue;
+        const flat_interior *in = &s->interiors[interior];
+        for (int k = 0; k < in->count; k++)
+            if (s->interior_media[in->first + k] == medium)
+                return true;
+    }
+    return false;
+}
+
+/* Next-event estimation to the emitting voxels of media. */
+HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    if (s->glows_count == 0)
+        return;
+    glow_sample g = glow_choose(s, &p->random);
+    vec3 to = vec3_sub(g.p, v->p);
+    float t = vec3_length(to), pdf;
+    if (!(t > 0.0f) || !(g.pdf > 0.0f))
+        return;
+    vec3 wi = vec3_scale(to, 1.0f / t);
+    if (!path_faces(v, wi))
+        return;
+    rgb value = path_bounce_eval(v, wi, &pdf);
+    if (rgb_is_black(value))
+        return;
+    const flat_medium *m = &s->media[g.medium];
+    rgb q = medium_source(s, m, g.p, medium_density(s, m, g.p));
+    if (rgb_is_black(q))
+        return;
+    container_set set = p->inside;
+    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi, t,
+                                    &p->random, &p->count);
+    if (!path_medium_at(s, &set, g.medium))
+        return;
+    value = rgb_mul(rgb_mul(value, q), left);
+    /* 1 / (pdf t^2) times glow_ray_share's complement. */
+    float weight = 1.0f / (g.pdf * t * t + pdf * m->kappa);
+    path_add(p, rgb_scale(rgb_mul(p->beta, value), weight));
+}
+
+/* ---- vertices ---------------------------------------------------------- */
+
+HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
+{
+    p->o = o;
+    p->d = d;
+    p->p_dir = pdf;
+    p->after = hit_start(0.0f);
+    p->straight = 0;
+}
+
+/* Russian roulette on the throughput; false ends the path. */
+HD bool path_survives(path_state *p)
+{
+    float throughput = rgb_max(p->beta) / rgb_mean(p->r_u);
+    if (!(throughput > 0.0f))
+        return false;
+    if (throughput >= 0.25f)
+        return true;
+    float q = fmaxf(throughput * 4.0f, 0.05f);
+    if (!rng_chance(&p->random, q))
+        return false;
+    p->beta = rgb_scale(p->beta, 1.0f / q);
+    return true;
+}
+
+HD bool path_scatter(const flat_scene *s, path_state *p, float t, int medium)
+{
+    path_vertex v;
+    v.p = vec3_mad(p->o, t, p->d);
+    v.d = p->d;
+    v.medium = &s->media[medium];
+    v.surface = 0;
+    path_light(s, p, &v);
+    if (!s->media_multiple)
+        return false;
+    path_glow(s, p, &v);
+    float pdf, u = rng_float(&p->random);
+    vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u,
+                          rng_float(&p->random), &pdf);
+    path_turn(p, v.p, d, pdf);
+    return path_survives(p);
+}
+
+/* Diffuse bounce off a surface. */
+HD bool path_bounce(path_state *p, const path_vertex *v)
+{
+    float u = rng_float(&p->random), pdf;
+    vec3 d = warp_frame_to_world(warp_frame(v->surface->ns),
+                                 warp_cosine_hemisphere(u,
+                                     rng_float(&p->random)));
+    if (!path_faces(v, d))
+        return false;
+    rgb value = path_bounce_eval(v, d, &pdf);
+    if (!(pdf > 0.0f))
+        return false;
+    p->beta = rgb_mul(p->beta, rgb_scale(value, 1.0f / pdf));
+    path_turn(p, path_origin(v, d), d, pdf);
+    return path_survives(p);
+}
+
+/* Chooses between passing straight through and the surface's own light in
+ * proportion to what each may give; true: pass. */
+HD bool path_passes(path_state *p, const hit_point *h)
+{
+    float pass = rgb_max(h->pass), stay = h->opacity;
+    /* A highlight stands on clear glass too. */
+    if (surface_has_highlight(h->material))
+        stay = fmaxf(stay, 0.25f);
+    if (!(pass > 0.0f))
+        return false;
+    if (!(stay > 0.0f)) {
+        p->beta = rgb_mul(p->beta, h->pass);
+        return true;
+    }
+    float chance = pass / (pass + stay);
+    bool passes = rng_chance(&p->random, chance);
+    p->beta = passes ? rgb_mul(p->beta, rgb_scale(h->pass, 1.0f / chance))
+                     : rgb_scale(p->beta, 1.0f / (1.0f - chance));
+    return passes;
+}
+
+HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
+                     const ray_hit *h)
+{
+    if (s->shapes[h->shape].material >= 0) {
+        hit_point at = hit_resolve(s, r, h);
+        if (!path_passes(p, &at)) {
+            path_vertex v;
+            v.p = at.p;
+            v.d = p->d;
+            v.medium = 0;
+            v.surface = &at;
+            path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,
+                                                      at.opacity)));
+            path_light(s, p, &v);
+            if (!s->surfaces_indirect)
+                return false;
+            path_glow(s, p, &v);
+            return path_bounce(p, &v);
+        }
+    }
+    shadow_cross(s, h, p->d, &p->inside);
+    p->after = *h;
+    return !rgb_is_black(p->beta);
+}
+
+/* ---- the path ---------------------------------------------------------- */
+
+/* One segment: to the next event or surface. False: the path has ended. */
+HD bool path_segment(const flat_scene *s, path_state *p)
+{
+    bvh_ray r = bvh_ray_make(p->o, p->d);
+    p->count.rays++;
+    ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
+    float t;
+    int medium;
+    int event = path_media(s, p, h.t, &t, &medium);
+    if (event == PATH_SCATTERED)
+        return path_scatter(s, p, t, medium);
+    if (event == PATH_ENDED)
+        return false;
+    if (h.shape >= 0)
+        return path_surface(s, p, &r, &h);
+    if (!p->straight && s->environment)
+        path_add(p, rgb_mul(p->beta, s->background));
+    return false;
+}
+
+/* Starts a path at o (containers `inside`) along the unit vector d. A path
+ * that is not `straight` finds all emission itself. */
+HD void path_begin(path_state *p, vec3 o, vec3 d, const container_set *inside,
+                   bool straight, rng random)
+{
+    p->beta = p->r_u = rgb_gray(1.0f);
+    p->radiance = rgb_gray(0.0f);
+    p->random = random;
+    p->driver = (int32_t)(rng_float(&p->random) * 3.0f);
+    p->inside = *inside;
+    path_turn(p, o, d, 0.0f);
+    p->straight = straight;
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* pixel.h - one sample of one pixel, whole: what both backends loop over. */
+#ifndef CORE_PHYSICS_PIXEL_H
+#define CORE_PHYSICS_PIXEL_H
+#include "core/physics/inside.h"
+#include "core/physics/march.h"
+#include "core/physics/path.h"
+
+/* Sums over samples. Halves of even and odd samples stand apart: their
+ * difference tells the error (METHODS.md 10). */
+typedef struct {
+    double path[2][3];
+    double line[2][3];
+    double background[3];   /* part of line                                */
+    double opacity[3];
+    float depth;            /* of the first line, along the view direction */
+} film_pixel;
+
+/* What is asked of every pixel. */
+typedef struct {
+    int32_t width, height;
+    uint64_t seed;
+    uint32_t frame;
+    int32_t path;           /* 0: nothing but the straight line gives light */
+} pixel_job;
+
+typedef struct {
+    track_counters track;
+    uint64_t rejected;
+} pixel_counters;
+
+/* Whether sample i also runs the straight line, which needs no noise cut, only
+ * edges smoothed: all of the first 16, then every fourth. */
+HD bool pixel_has_line(uint32_t i)
+{
+    return i < 16u || i % 4u == 0u;
+}
+
+/* Lines among the first n samples that fall to one half. */
+HD uint32_t pixel_lines(uint32_t n, int half)
+{
+    if (n <= 16u)
+        return (n + (half == 0 ? 1u : 0u)) / 2u;
+    uint32_t later = (n - 16u + 3u) / 4u;
+    return 8u + (later + (half == 0 ? 1u : 0u)) / 2u;
+}
+
+/* The half of a sample that runs the line: they alternate. */
+HD int pixel_line_half(uint32_t i)
+{
+    return (int)(i < 16u ? i & 1u : i / 4u & 1u);
+}
+
+HD bool pixel_finite(rgb c)
+{
+    return isfinite(c.r) && isfinite(c.g) && isfinite(c.b);
+}
+
+HD void pixel_sum(double out[3], rgb c)
+{
+    out[0] += (double)c.r;
+    out[1] += (double)c.g;
+    out[2] += (double)c.b;
+}
+
+HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
+                   const container_set *set, uint32_t sample,
+                   film_pixel *out, pixel_counters *count)
+{
+    march_result m = march_line(s, set, o, d);
+    if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
+        count->rejected++;
+        return;
+    }
+    pixel_sum(out->line[pixel_line_half(sample)], m.radiance);
+    pixel_sum(out->background, m.background);
+    pixel_sum(out->opacity, m.opacity);
+    if (sample == 0u)
+        out->depth = m.depth * vec3_dot(d, vec3_normalize(s->view.direction)) /
+                     s->unit;
+}
+
+HD void pixel_path(const flat_scene *s, vec3 o, vec3 d,
+                   const container_set *set, uint32_t sample, rng random,
+                   film_pixel *out, pixel_counters *count)
+{
+    path_state p;
+    path_begin(&p, o, d, set, true, random);
+    p.count = count->track;
+    p.count.paths++;
+    while (path_segment(s, &p))
+        ;
+    count->track = p.count;
+    if (pixel_finite(p.radiance))
+        pixel_sum(out->path[sample & 1u], p.radiance);
+    else
+        count->rejected++;
+}
+
+HD void pixel_containers(const flat_scene *s, vec3 o, container_set *set)
+{
+    if (s->view.orthographic) {
+        inside_find(s, o, set);
+        return;
+    }
+    set->count = (int32_t)s->camera_containers_count;
+    for (int i = 0; i < set->count; i++)
+        set->shape[i] = s->camera_containers[i];
+}
+
+/* Adds sample `i` of pixel (x, y). */
+HD void pixel_sample(const flat_scene *s, const pixel_job *job, int32_t x,
+                     int32_t y, uint32_t i, film_pixel *out,
+                     pixel_counters *count)
+{
+    uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
+    rng random = rng_make(job->seed, job->frame, i, index);
+    float u = ((float)x + rng_float(&random)) / (float)job->width - 0.5f;
+    float v = 0.5f - ((float)y + rng_float(&random)) / (float)job->height;
+    vec3 o, d;
+    container_set set;
+    camera_ray(&s->view, u, v, &o, &d);
+    pixel_containers(s, o, &set);
+    if (pixel_has_line(i))
+        pixel_line(s, o, d, &set, i, out, count);
+    if (job->path)
+        pixel_path(s, o, d, &set, i, random, out, count);
+}
+
+#endif

@@ -1,0 +1,179 @@
+/* scene.h - the flat scene that every stage reads, on the CPU and the GPU.
+ *
+ * Records hold indices into arrays, never pointers; the arrays are listed once
+ * in SCENE_ARRAYS, which the host's struct, its release and an upload expand.
+ * Lengths are in unit space: the scene scaled by a power of two (and moved, if
+ * it lies far from the origin) so that its bounds are near 1; coefficients are
+ * per unit-space length. core/prepare.c makes it. */
+#ifndef CORE_PHYSICS_SCENE_H
+#define CORE_PHYSICS_SCENE_H
+#include "core/physics/blackbody.h"
+#include "core/physics/camera.h"
+#include "core/physics/hd.h"
+#include "core/physics/vec.h"
+
+enum { FIELD_CONSTANT, FIELD_GRID };
+enum { BRICK_SIDE = 9, BRICK_FLOATS = 729 };    /* 8^3 samples + upper apron */
+enum { MAX_DENSITIES = 4, MAX_PLANES = 6, MAX_ACTIVE = 8, MAX_CONTAINERS = 8 };
+
+/* A grid of bricks; samples at integers of index space. Each stored brick
+ * carries one more layer of samples on its upper sides, so that a trilinear
+ * lookup reads a single brick. */
+typedef struct {
+    int32_t origin[3], bricks[3];
+    uint64_t slot;          /* first of its slots                          */
+    uint64_t brick;         /* first of its stored bricks                  */
+    uint64_t tile;          /* first of its constants; that one is outside */
+    int32_t nearest;        /* 1: no interpolation                         */
+    int32_t clip;           /* 1: zero outside of clip_min..clip_max       */
+    float clip_min[3], clip_max[3];
+} flat_grid;
+
+/* A scalar function of position. */
+typedef struct {
+    int32_t kind, grid;
+    float scale;            /* a constant's value                          */
+    affine to_index;        /* unit space to the grid's index space        */
+} flat_field;
+
+/* Bounds of a medium over one cell of its majorant lattice. */
+typedef struct {
+    float density;          /* >= the density anywhere in the cell         */
+    float rate;             /* emission samples per length; 0: none emitted */
+} majorant_cell;
+
+/* A medium: coefficients at density 1, and its majorant lattice. */
+typedef struct {
+    rgb sigma_a, sigma_s;
+    rgb sigma_t;            /* attenuation: sigma_a + extinction sigma_s   */
+    rgb bound;              /* max(sigma_t, sigma_a + sigma_s)             */
+    rgb emission;
+    int32_t phase;          /* POV-Ray's number                            */
+    float g;
+    int32_t densities, density[MAX_DENSITIES];
+    int32_t uniform;        /* 1: no lattice, `outside` is everywhere      */
+    int32_t emits;
+    int32_t planes, plane_field[MAX_PLANES];    /* fields whose voxel planes
+                               differ: an exact line integral stops at them */
+    int32_t fire;           /* 1: the members below hold                   */
+    int32_t temperature, amount;        /* fields; amount may be -1        */
+    float kelvin_scale, kelvin_offset;
+    float intensity;        /* luminance factor included                   */
+    int32_t brightness, additive;
+    affine to_cell;         /* unit space to lattice coordinates           */
+    int32_t cells[3];
+    uint64_t cell;          /* first of its majorant cells                 */
+    majorant_cell outside;  /* bounds beyond the lattice                   */
+    int32_t glow;           /* its emitter list, or -1                     */
+    float kappa;            /* MIS constant of emission, per length        */
+} flat_medium;
+
+/* The voxels of an emitting medium as a light: a discrete distribution over
+ * cells of index space of one grid-like lattice, brick by brick. */
+typedef struct {
+    int32_t medium;
+    affine to_index;        /* unit space to the lattice                   */
+    affine from_index;
+    int32_t origin[3], bricks[3];   /* extent in bricks of 8^3             */
+    uint64_t slot;          /* per brick: its number in the list, or -1    */
+    uint64_t first, count;  /* bricks of the list: glow_bricks[first ...]  */
+    float voxel_volume;
+    float probability;      /* of choosing this list among all             */
+} flat_glow;
+
+typedef struct {
+    int32_t corner[3];      /* index of the lowest voxel                   */
+    float cumulative;       /* probability of this and all bricks before   */
+} glow_brick;
+
+enum { SHAPE_HOLLOW = 1, SHAPE_INVERSE = 2, SHAPE_NO_SHADOW = 4,
+       SHAPE_FLIPPED = 8 /* a mesh whose normals point inward */ };
+
+typedef struct {
+    int32_t kind;           /* SHAPE_* of shape.h, or SHAPE_MESH           */
+    float params[4];        /* shape.h                                     */
+    affine to_local;
+    int32_t material, interior;     /* -1: none                            */
+    int32_t flags;
+    uint64_t triangle, triangles;   /* a mesh's                            */
+} flat_shape;
+
+typedef struct {
+    vec3 p[3];
+    int32_t shape;
+    int32_t smooth;         /* first of three normals, or -1               */
+} flat_triangle;
+
+typedef struct {
+    int32_t checker;
+    rgb color[2];
+    float filter[2], transmit[2];
+    affine to_pattern;
+    rgb ambient, emission;  /* ambient: times ambient_light already        */
+    float diffuse, brilliance, phong, phong_size, specular, roughness;
+    float metallic;
+} flat_material;
+
+typedef struct {
+    int32_t first, count;   /* of interior_media                           */
+} flat_interior;
+
+typedef struct {
+    int32_t spot;
+    vec3 position, axis;
+    rgb color;
+    float cos_radius, cos_falloff, tightness;
+    float fade_distance, fade_power;
+    int32_t shadows, media_interaction, media_attenuation;
+    float cumulative;       /* probability of this and all before          */
+} flat_light;
+
+/* Node of the binary BVH. A leaf has count > 0 items from `first` of
+ * bvh_items; an inner node's children are `first` and `first` + 1. */
+typedef struct {
+    float lo[3];
+    uint32_t first;
+    float hi[3];
+    uint32_t count;
+} bvh_node;
+
+#define SCENE_ARRAYS(X)                                                       \
+    X(flat_grid, grids)                                                       \
+    X(int32_t, slots)                                                         \
+    X(float, voxels)                                                          \
+    X(float, tiles)                                                           \
+    X(flat_field, fields)                                                     \
+    X(flat_medium, media)                                                     \
+    X(majorant_cell, cells)                                                   \
+    X(flat_glow, glows)                                                       \
+    X(int32_t, glow_slots)                                                    \
+    X(glow_brick, glow_bricks)                                                \
+    X(float, glow_voxels)       /* 512 a brick: cumulative within it */       \
+    X(flat_interior, interiors)                                               \
+    X(int32_t, interior_media)                                                \
+    X(flat_shape, shapes)                                                     \
+    X(int32_t, unbounded)       /* shapes outside of the tree */              \
+    X(flat_triangle, triangles)                                               \
+    X(vec3, normals)                                                          \
+    X(flat_material, materials)                                               \
+    X(flat_light, lights)                                                     \
+    X(bvh_node, bvh)                                                          \
+    X(uint32_t, bvh_items)      /* shape, or shapes_count + triangle */       \
+    X(blackbody_table, blackbody)                                             \
+    X(int32_t, camera_containers)   /* the shapes that hold the eye */
+
+/* Passed by value to every stage. */
+typedef struct {
+#define X(type, name) const type *name; uint64_t name##_count;
+    SCENE_ARRAYS(X)
+#undef X
+    camera view;
+    rgb background;
+    int32_t atmosphere;     /* an interior, or -1                          */
+    int32_t media_multiple, surfaces_indirect, environment, physical_units;
+    int32_t scatters;       /* some medium has sigma_s > 0                 */
+    float unit;             /* unit-space lengths per scene unit           */
+    float far;              /* where rays end                              */
+} flat_scene;
+
+#endif

@@ -1,0 +1,233 @@
+/* walk.h - a ray through the media around it, in pieces over which every
+ * medium's majorant is constant.
+ *
+ * Each medium has a lattice of majorant cells (or one bound for all space);
+ * the walk steps through all active lattices at once. Plane crossings are
+ * computed from integer planes, never accumulated, and a piece never goes
+ * backward, so that the walk ends after at most the sum of the lattices'
+ * dimensions in steps (METHODS.md 1.1 and 12). */
+#ifndef CORE_PHYSICS_WALK_H
+#define CORE_PHYSICS_WALK_H
+#include "core/physics/medium.h"
+
+/* The shapes whose interiors a point lies in. */
+typedef struct {
+    int32_t count;
+    int32_t shape[MAX_CONTAINERS];
+} container_set;
+
+/* One medium's lattice along the ray. */
+typedef struct {
+    int32_t medium;
+    int32_t cell[3];
+    int32_t inside;         /* of the lattice                              */
+    float enter, leave;     /* distances to the lattice; enter < leave, or
+                               both infinite where the ray misses it       */
+    float next[3];          /* distances to the next plane of each axis    */
+    vec3 o, d;              /* the ray in lattice coordinates              */
+    float t_end;            /* end of the current piece                    */
+    majorant_cell bound;
+} lattice_walk;
+
+typedef struct {
+    int32_t count;
+    lattice_walk part[MAX_ACTIVE];
+    float t, t_end;         /* the current piece                           */
+    float t_max;
+    uint32_t overflow;      /* media left out: more than MAX_ACTIVE        */
+} media_walk;
+
+/* Distance at which the axis leaves its current cell. */
+HD float lattice_plane(const lattice_walk *w, int axis)
+{
+    float d = vec3_get(w->d, axis);
+    if (d == 0.0f)
+        return INFINITY;
+    float plane = (float)(w->cell[axis] + (d > 0.0f));
+    return (plane - vec3_get(w->o, axis)) / d;
+}
+
+HD float lattice_next(const lattice_walk *w)
+{
+    return fminf(fminf(w->next[0], fminf(w->next[1], w->next[2])), w->leave);
+}
+
+HD void lattice_load(const flat_scene *s, lattice_walk *w)
+{
+    const flat_medium *m = &s->media[w->medium];
+    uint64_t i = (uint64_t)w->cell[0] +
+        (uint64_t)m->cells[0] * ((uint64_t)w->cell[1] +
+                                 (uint64_t)m->cells[1] * (uint64_t)w->cell[2]);
+    w->bound = s->cells[m->cell + i];
+}
+
+HD void lattice_outside(const flat_scene *s, lattice_walk *w, float t_end)
+{
+    w->inside = 0;
+    w->bound = s->media[w->medium].outside;
+    w->t_end = t_end;
+}
+
+/* Starts the cell that contains distance t. */
+HD void lattice_enter(const flat_scene *s, lattice_walk *w, float t)
+{
+    const flat_medium *m = &s->media[w->medium];
+    w->inside = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        float x = vec3_get(w->o, axis) + t * vec3_get(w->d, axis);
+        int c = grid_floor(fminf(fmaxf(x, 0.0f), 1e9f));
+        w->cell[axis] = c < m->cells[axis] ? c : m->cells[axis] - 1;
+        w->next[axis] = lattice_plane(w, axis);
+    }
+    lattice_load(s, w);
+    w->t_end = fmaxf(lattice_next(w), t);
+}
+
+/* Where the ray is inside the lattice's box. */
+HD void lattice_clip(const flat_medium *m, lattice_walk *w)
+{
+    float enter = -INFINITY, leave = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        float o = vec3_get(w->o, axis), d = vec3_get(w->d, axis);
+        float size = (float)m->cells[axis];
+        if (d == 0.0f) {
+            if (!(o >= 0.0f && o < size))
+                leave = -INFINITY;
+            continue;
+        }
+        float a = (0.0f - o) / d, b = (size - o) / d;
+        enter = fmaxf(enter, fminf(a, b));
+        leave = fminf(leave, fmaxf(a, b));
+    }
+    bool hit = enter < leave;
+    w->enter = hit ? enter : INFINITY;
+    w->leave = hit ? leave : INFINITY;
+}
+
+HD void lattice_begin(const flat_scene *s, lattice_walk *w, int medium,
+                      vec3 o, vec3 d, float t)
+{
+    const flat_medium *m = &s->media[medium];
+    w->medium = medium;
+    if (m->uniform) {
+        lattice_outside(s, w, INFINITY);
+        w->enter = w->leave = INFINITY;
+        return;
+    }
+    w->o = affine_point(&m->to_cell, o);
+    w->d = affine_vector(&m->to_cell, d);
+    lattice_clip(m, w);
+    if (t < w->enter)
+        lattice_outside(s, w, w->enter);
+    else if (t < w->leave)
+        lattice_enter(s, w, t);
+    else
+        lattice_outside(s, w, INFINITY);
+}
+
+/* Goes on from the end of the current piece. */
+HD void lattice_step(const flat_scene *s, lattice_walk *w)
+{
+    float t = w->t_end;
+    if (!w->inside) {
+        lattice_enter(s, w, t);
+        return;
+    }
+    if (!(t < w->leave)) {
+        lattice_outside(s, w, INFINITY);
+        return;
+    }
+    int axis = w->next[0] <= w->next[1] ? 0 : 1;
+    axis = w->next[axis] <= w->next[2] ? axis : 2;
+    w->cell[axis] += vec3_get(w->d, axis) > 0.0f ? 1 : -1;
+    if (w->cell[axis] < 0 ||
+        w->cell[axis] >= s->media[w->medium].cells[axis]) {
+        lattice_outside(s, w, INFINITY);
+        return;
+    }
+    w->next[axis] = lattice_plane(w, axis);
+    lattice_load(s, w);
+    w->t_end = fmaxf(lattice_next(w), t);
+}
+
+HD void walk_set_end(media_walk *w)
+{
+    w->t_end = w->t_max;
+    for (int i = 0; i < w->count; i++)
+        w->t_end = fminf(w->t_end, w->part[i].t_end);
+}
+
+HD void walk_add_interior(const flat_scene *s, media_walk *w, int interior,
+                          vec3 o, vec3 d)
+{
+    if (interior < 0)
+        return;
+    const flat_interior *in = &s->interiors[interior];
+    for (int i = 0; i < in->count; i++) {
+        if (w->count == MAX_ACTIVE) {
+            w->overflow++;
+            continue;
+        }
+        lattice_begin(s, &w->part[w->count], s->interior_media[in->first + i],
+                      o, d, w->t);
+        w->count++;
+    }
+}
+
+/* Begins a walk from distance t0 to t1 through the interiors of `set` and the
+ * atmosphere; its first piece is current. d need not be of unit length as far
+ * as the walk goes: t counts multiples of d. */
+HD void walk_begin(const flat_scene *s, media_walk *w,
+                   const container_set *set, bool atmosphere, vec3 o, vec3 d,
+                   float t0, float t1)
+{
+    w->count = 0;
+    w->overflow = 0;
+    w->t = t0;
+    w->t_max = t1;
+    if (atmosphere)
+        walk_add_interior(s, w, s->atmosphere, o, d);
+    for (int i = 0; i < set->count; i++)
+        walk_add_interior(s, w, s->shapes[set->shape[i]].interior, o, d);
+    walk_set_end(w);
+}
+
+/* The next piece; false at the end of the ray. */
+HD bool walk_next(const flat_scene *s, media_walk *w)
+{
+    if (!(w->t_end < w->t_max))
+        return false;
+    w->t = w->t_end;
+    for (int i = 0; i < w->count; i++)
+        while (w->part[i].t_end <= w->t)
+            lattice_step(s, &w->part[i]);
+    walk_set_end(w);
+    return true;
+}
+
+HD bool container_has(const container_set *set, int shape)
+{
+    for (int i = 0; i < set->count; i++)
+        if (set->shape[i] == shape)
+            return true;
+    return false;
+}
+
+/* Entering twice, or leaving what was not entered, changes nothing: it is
+ * what rounding at edges can make of one boundary. */
+HD void container_enter(container_set *set, int shape)
+{
+    if (!container_has(set, shape) && set->count < MAX_CONTAINERS)
+        set->shape[set->count++] = shape;
+}
+
+HD void container_leave(container_set *set, int shape)
+{
+    for (int i = 0; i < set->count; i++)
+        if (set->shape[i] == shape) {
+            set->shape[i] = set->shape[--set->count];
+            return;
+        }
+}
+
+#endif
