@@ -283,6 +283,8 @@ struct brume_stats {
     char backend[64];
     uint64_t paths, rays, shadow_rays, collisions, lookups;
     uint64_t majorant_exceeded;     /* must be 0                           */
+    uint64_t overflow;              /* media left out where more overlap than
+                                       a ray can follow                    */
     uint64_t rejected;              /* samples that were not finite, left out */
     int spp;
     double error;                   /* estimated relRMSE (DESIGN.md)       */

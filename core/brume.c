@@ -1,0 +1,313 @@
+/* The building half of brume.h: lists that grow, and checks of what enters
+ * them, so that nothing behind the API meets a value it cannot use. */
+#include "core/brume.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "core/matrix.h"
+#include "core/scene.h"
+#include "lib/memory.h"
+
+brume_scene *brume_scene_new(struct brume_error *err)
+{
+    brume_scene *s = memory_new(1, sizeof *s, err);
+    if (!s)
+        return NULL;
+    s->camera = (struct brume_camera)BRUME_CAMERA_INIT;
+    s->globals = (struct brume_globals)BRUME_GLOBALS_INIT;
+    s->atmosphere = -1;
+    return s;
+}
+
+void brume_scene_free(brume_scene *scene)
+{
+    if (!scene)
+        return;
+    for (size_t i = 0; i < scene->meshes_count; i++)
+        mesh_free(scene->meshes[i]);
+    for (size_t i = 0; i < scene->grids_count; i++)
+        grid_free(scene->grids[i]);
+#define X(type, name) free(scene->name);
+    SCENE_LISTS(X)
+#undef X
+    free(scene);
+}
+
+/* Appends to one of the lists and returns the id. */
+#define APPEND(scene, list, value, err)                                       \
+    (list_room((void **)&(scene)->list, &(scene)->list##_capacity,            \
+               (scene)->list##_count, sizeof *(scene)->list, err)             \
+         ? ((scene)->list[(scene)->list##_count] = (value),                   \
+            (int)(scene)->list##_count++)                                     \
+         : -1)
+
+static bool list_room(void **list, size_t *capacity, size_t count, size_t size,
+                      struct brume_error *err)
+{
+    if (count >= INT32_MAX)
+        return brume_fail(err, BRUME_ERR_LIMIT, "too many items in the scene");
+    void *grown = memory_grow(*list, capacity, count + 1, size, err);
+    if (!grown)
+        return false;
+    *list = grown;
+    return true;
+}
+
+static bool all_finite(const double *v, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(v[i]))
+            return false;
+    return true;
+}
+
+static bool check_finite(const double *v, int n, const char *what,
+                         struct brume_error *err)
+{
+    return all_finite(v, n) || brume_fail(err, BRUME_ERR_SCENE,
+                                      "%s is not finite", what);
+}
+
+static bool check_not_negative(const double *v, int n, const char *what,
+                               struct brume_error *err)
+{
+    if (!check_finite(v, n, what, err))
+        return false;
+    for (int i = 0; i < n; i++)
+        if (v[i] < 0.0)
+            return brume_fail(err, BRUME_ERR_SCENE,
+                              "%s is %g but may not be negative", what, v[i]);
+    return true;
+}
+
+static bool check_id(int id, size_t count, bool optional, const char *what,
+                     struct brume_error *err)
+{
+    if ((id >= 0 && (size_t)id < count) || (optional && id == -1))
+        return true;
+    return brume_fail(err, BRUME_ERR_SCENE, "there is no %s %d", what, id);
+}
+
+static bool check_transform(const double m[3][4], const char *what,
+                            struct brume_error *err)
+{
+    matrix a = matrix_from(m), inverse;
+    if (matrix_finite(&a) && matrix_invert(&a, &inverse))
+        return true;
+    return brume_fail(err, BRUME_ERR_SCENE,
+                      "the transform of %s has no inverse", what);
+}
+
+bool brume_set_camera(brume_scene *scene, const struct brume_camera *camera,
+                      struct brume_error *err)
+{
+    if (!check_finite(camera->location, 3, "the camera's location", err) ||
+        !check_finite(camera->direction, 3, "the camera's direction", err) ||
+        !check_finite(camera->up, 3, "the camera's up", err) ||
+        !check_finite(camera->right, 3, "the camera's right", err))
+        return false;
+    const double *d = camera->direction;
+    if (d[0] == 0.0 && d[1] == 0.0 && d[2] == 0.0)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "the camera's direction is zero");
+    scene->camera = *camera;
+    return true;
+}
+
+bool brume_set_globals(brume_scene *scene,
+                       const struct brume_globals *globals,
+                       struct brume_error *err)
+{
+    if (!check_finite(globals->background, 3, "the background", err) ||
+        !check_finite(globals->ambient_light, 3, "the ambient light", err))
+        return false;
+    scene->globals = *globals;
+    return true;
+}
+
+static bool check_spot(const struct brume_light *l, struct brume_error *err)
+{
+    double v[3] = {l->radius, l->falloff, l->tightness};
+    if (!check_finite(l->point_at, 3, "the spotlight's point_at", err) ||
+        !check_not_negative(v, 3, "a spotlight's angle or tightness", err))
+        return false;
+    if (memcmp(l->point_at, l->location, sizeof l->location) == 0)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "the spotlight points at its own location");
+    return true;
+}
+
+int brume_add_light(brume_scene *scene, const struct brume_light *light,
+                    struct brume_error *err)
+{
+    double fade[2] = {light->fade_distance, light->fade_power};
+    if (!check_finite(light->location, 3, "the light's location", err) ||
+        !check_finite(light->color, 3, "the light's colour", err) ||
+        !check_not_negative(fade, 2, "the light's fade", err) ||
+        (light->kind == BRUME_LIGHT_SPOT && !check_spot(light, err)))
+        return -1;
+    return APPEND(scene, lights, *light, err);
+}
+
+int brume_add_material(brume_scene *scene,
+                       const struct brume_material *material,
+                       struct brume_error *err)
+{
+    const struct brume_material *m = material;
+    double finish[7] = {m->diffuse, m->brilliance, m->phong, m->phong_size,
+                        m->specular, m->roughness, m->metallic};
+    if (!check_finite(m->color[0], 10, "a pigment's colour", err) ||
+        !check_finite(m->ambient, 3, "the finish's ambient", err) ||
+        !check_finite(m->emission, 3, "the finish's emission", err) ||
+        !check_not_negative(finish, 7, "a term of the finish", err) ||
+        !check_transform(m->pigment_transform, "a pigment", err))
+        return -1;
+    return APPEND(scene, materials, *m, err);
+}
+
+static bool check_shape(const brume_scene *scene,
+                        const struct brume_shape *s, struct brume_error *err)
+{
+    double radii[2] = {s->radius, s->radius_b};
+    bool signed_radius = s->kind == BRUME_SHAPE_PLANE;
+    if (!check_finite(s->a, 3, "a shape's point", err) ||
+        !check_finite(s->b, 3, "a shape's point", err) ||
+        !check_finite(radii, 2, "a shape's radius", err) ||
+        !check_transform(s->transform, "a shape", err) ||
+        !check_id(s->material, scene->materials_count, true, "material",
+                  err) ||
+        !check_id(s->interior, scene->interiors_count, true, "interior", err))
+        return false;
+    if (s->kind == BRUME_SHAPE_MESH)
+        return check_id(s->mesh, scene->meshes_count, false, "mesh", err);
+    return signed_radius || check_not_negative(radii, 2, "a radius", err);
+}
+
+int brume_add_shape(brume_scene *scene, const struct brume_shape *shape,
+                    struct brume_error *err)
+{
+    if (!check_shape(scene, shape, err))
+        return -1;
+    return APPEND(scene, shapes, *shape, err);
+}
+
+int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,
+                   struct brume_error *err)
+{
+    if (!mesh_check(mesh, err))
+        return -1;
+    struct mesh *copy = mesh_copy(mesh, err);
+    if (!copy)
+        return -1;
+    int id = APPEND(scene, meshes, copy, err);
+    if (id < 0)
+        mesh_free(copy);
+    return id;
+}
+
+int brume_add_grid(brume_scene *scene, const struct grid *grid,
+                   struct brume_error *err)
+{
+    if (!check_transform(grid->to_world, "a grid", err))
+        return -1;
+    struct grid *copy = grid_copy(grid, err);
+    if (!copy)
+        return -1;
+    int id = APPEND(scene, grids, copy, err);
+    if (id < 0)
+        grid_free(copy);
+    return id;
+}
+
+int brume_add_field(brume_scene *scene, const struct brume_field *field,
+                    struct brume_error *err)
+{
+    bool grid = field->kind == BRUME_FIELD_GRID;
+    if (!check_not_negative(&field->scale, 1, "a field's scale", err) ||
+        !check_id(field->grid, scene->grids_count, !grid, "grid", err) ||
+        !check_transform(field->transform, "a field", err))
+        return -1;
+    return APPEND(scene, fields, *field, err);
+}
+
+static bool check_fire(const brume_scene *scene, const struct brume_fire *f,
+                       struct brume_error *err)
+{
+    double kelvin[2] = {f->kelvin_scale, f->kelvin_offset};
+    double positive[2] = {f->intensity, f->reference};
+    if (!check_id(f->temperature, scene->fields_count, false, "field", err) ||
+        !check_id(f->amount, scene->fields_count, true, "field", err) ||
+        !check_finite(kelvin, 2, "the fire's kelvin", err) ||
+        !check_not_negative(positive, 2, "the fire's intensity or reference",
+                            err))
+        return false;
+    return f->brightness != BRUME_BRIGHTNESS_PHYSICAL || f->reference >= 500 ||
+           brume_fail(err, BRUME_ERR_SCENE,
+                      "the fire's reference is %g K but must be at least "
+                      "500 K, where a black body begins to glow",
+                      f->reference);
+}
+
+static bool check_medium(const brume_scene *scene,
+                         const struct brume_medium *m,
+                         struct brume_error *err)
+{
+    if (!check_not_negative(m->absorption, 3, "absorption", err) ||
+        !check_not_negative(m->scattering, 3, "scattering", err) ||
+        !check_finite(m->emission, 3, "emission", err) ||
+        !check_not_negative(&m->extinction, 1, "extinction", err))
+        return false;
+    if (m->phase < BRUME_PHASE_ISOTROPIC ||
+        m->phase > BRUME_PHASE_HENYEY_GREENSTEIN)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "scattering type %d is not one of 1 to 5",
+                          (int)m->phase);
+    if (!(fabs(m->eccentricity) < 1.0))
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "eccentricity is %g but must lie between -1 and 1",
+                          m->eccentricity);
+    if (m->densities < 0 || m->densities > BRUME_MAX_DENSITIES)
+        return brume_fail(err, BRUME_ERR_LIMIT,
+                          "a medium has %d densities but at most %d are "
+                          "possible", m->densities, BRUME_MAX_DENSITIES);
+    for (int i = 0; i < m->densities; i++)
+        if (!check_id(m->density[i], scene->fields_count, false, "field",
+                      err))
+            return false;
+    return !m->fire.on || check_fire(scene, &m->fire, err);
+}
+
+int brume_add_medium(brume_scene *scene, const struct brume_medium *medium,
+                     struct brume_error *err)
+{
+    if (!check_medium(scene, medium, err))
+        return -1;
+    return APPEND(scene, media, *medium, err);
+}
+
+int brume_add_interior(brume_scene *scene, const int *media, int count,
+                       struct brume_error *err)
+{
+    struct scene_interior in = {.count = count};
+    if (count < 0 || count > BRUME_MAX_INTERIOR_MEDIA) {
+        brume_fail(err, BRUME_ERR_LIMIT,
+                   "an interior has %d media but at most %d are possible",
+                   count, BRUME_MAX_INTERIOR_MEDIA);
+        return -1;
+    }
+    for (int i = 0; i < count; i++) {
+        if (!check_id(media[i], scene->media_count, false, "medium", err))
+            return -1;
+        in.media[i] = media[i];
+    }
+    return APPEND(scene, interiors, in, err);
+}
+
+bool brume_set_atmosphere(brume_scene *scene, int interior,
+                          struct brume_error *err)
+{
+    if (!check_id(interior, scene->interiors_count, true, "interior", err))
+        return false;
+    scene->atmosphere = interior;
+    return true;
+}

@@ -1,0 +1,108 @@
+/* The CPU backend: rows of pixels over threads. A pixel is summed by one
+ * thread in the order of its samples, so that the picture does not depend on
+ * how many there are. */
+#include "core/backend.h"
+#include <stdlib.h>
+#include <string.h>
+#include "lib/memory.h"
+#include "lib/thread.h"
+
+struct cpu_state {
+    struct backend_frame frame;
+    pixel_job job;
+    int threads;
+    pixel_counters *count;      /* of each thread                          */
+    uint32_t samples;           /* of this call                            */
+    atomic_size_t rows_done;
+    atomic_bool stop;
+};
+
+static bool cpu_available(char *why, size_t size)
+{
+    (void)why;
+    (void)size;
+    return true;
+}
+
+static void cpu_close(void *state)
+{
+    struct cpu_state *s = state;
+    if (s)
+        free(s->count);
+    free(s);
+}
+
+static void *cpu_open(const struct backend_frame *frame,
+                      struct brume_error *err)
+{
+    struct cpu_state *s = memory_new(1, sizeof *s, err);
+    if (!s)
+        return NULL;
+    const struct brume_options *o = frame->options;
+    s->frame = *frame;
+    s->threads = o->threads > 0 ? o->threads : thread_processors();
+    s->job.width = o->width;
+    s->job.height = o->height;
+    s->job.seed = o->seed;
+    s->job.frame = o->frame;
+    s->job.path = frame->stages->path;
+    s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
+    if (!s->count) {
+        cpu_close(s);
+        return NULL;
+    }
+    return s;
+}
+
+static void sample_row(void *context, size_t index, int thread)
+{
+    struct cpu_state *s = context;
+    struct film *film = s->frame.film;
+    int y = film->y0 + (int)index, columns = film->x1 - film->x0;
+    film_pixel *p = film->pixel + index * (size_t)columns;
+    for (int x = film->x0; x < film->x1; x++, p++)
+        for (uint32_t i = 0; i < s->samples; i++)
+            pixel_sample(&s->frame.flat->view, &s->job, x, y,
+                         film->samples + i, p, &s->count[thread]);
+    size_t done = atomic_fetch_add(&s->rows_done, 1) + 1;
+    /* Thread 0 is the caller's own. */
+    if (thread == 0 &&
+        !s->frame.tick(s->frame.user,
+                      (double)done / (film->y1 - film->y0)))
+        atomic_store(&s->stop, true);
+}
+
+static void add_counts(const struct cpu_state *s, struct brume_stats *out)
+{
+    for (int i = 0; i < s->threads; i++) {
+        const pixel_counters *c = &s->count[i];
+        out->paths += c->track.paths;
+        out->rays += c->track.rays;
+        out->shadow_rays += c->track.shadow_rays;
+        out->collisions += c->track.collisions;
+        out->lookups += c->track.lookups;
+        out->majorant_exceeded += c->track.majorant_exceeded;
+        out->overflow += c->track.overflow;
+        out->rejected += c->rejected;
+    }
+}
+
+static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,
+                       struct brume_error *err)
+{
+    (void)err;
+    struct cpu_state *s = state;
+    const struct film *film = s->frame.film;
+    s->samples = count;
+    atomic_store(&s->rows_done, 0);
+    atomic_store(&s->stop, false);
+    memset(s->count, 0, (size_t)s->threads * sizeof *s->count);
+    parallel_for(s->threads, (size_t)(film->y1 - film->y0), sample_row, s,
+                 &s->stop);
+    add_counts(s, stats);
+    return true;
+}
+
+const struct backend backend_cpu = {
+    "cpu", cpu_available, cpu_open, cpu_sample, cpu_close,
+};

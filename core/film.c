@@ -1,0 +1,132 @@
+#include "core/film.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "lib/memory.h"
+
+static bool check_part(const struct brume_options *o, struct brume_error *err)
+{
+    if (o->width < 1 || o->height < 1)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "a picture of %d x %d pixels cannot be rendered",
+                          o->width, o->height);
+    if (o->x0 < 0 || o->y0 < 0 || o->x1 > o->width || o->y1 > o->height ||
+        o->x0 > o->x1 || o->y0 > o->y1)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "columns %d to %d, rows %d to %d do not lie in a "
+                          "picture of %d x %d pixels", o->x0, o->x1, o->y0,
+                          o->y1, o->width, o->height);
+    return true;
+}
+
+bool film_init(struct film *film, const struct brume_options *options,
+               struct brume_error *err)
+{
+    memset(film, 0, sizeof *film);
+    if (!check_part(options, err))
+        return false;
+    bool whole = options->x0 == 0 && options->y0 == 0 && options->x1 == 0 &&
+                 options->y1 == 0;
+    film->width = options->width;
+    film->height = options->height;
+    film->x0 = options->x0;
+    film->y0 = options->y0;
+    film->x1 = whole ? options->width : options->x1;
+    film->y1 = whole ? options->height : options->y1;
+    film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
+    return film->pixel != NULL;
+}
+
+void film_release(struct film *film)
+{
+    free(film->pixel);
+    film->pixel = NULL;
+}
+
+size_t film_pixels(const struct film *film)
+{
+    return (size_t)(film->x1 - film->x0) * (size_t)(film->y1 - film->y0);
+}
+
+/* Mean over the samples of one half. */
+static double half_mean(const struct film *f, const film_pixel *p, int half,
+                        int channel)
+{
+    uint32_t paths = (f->samples + (half == 0 ? 1u : 0u)) / 2u;
+    uint32_t lines = pixel_lines(f->samples, half);
+    return (paths ? p->path[half][channel] / paths : 0.0) +
+           (lines ? p->line[half][channel] / lines : 0.0);
+}
+
+static double mean(const struct film *f, const film_pixel *p, int channel)
+{
+    double lines = pixel_lines(f->samples, 0) + pixel_lines(f->samples, 1);
+    return (p->path[0][channel] + p->path[1][channel]) / f->samples +
+           (p->line[0][channel] + p->line[1][channel]) / lines;
+}
+
+double film_error(const struct film *film)
+{
+    size_t pixels = film_pixels(film);
+    if (film->samples < 4)
+        return INFINITY;
+    double image = 0.0, sum = 0.0;
+    for (size_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++)
+            image += mean(film, &film->pixel[i], c);
+    image /= 3.0 * (double)pixels;
+    double floor = 0.01 * image * image;
+    for (size_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++) {
+            const film_pixel *p = &film->pixel[i];
+            double m = mean(film, p, c);
+            double d = half_mean(film, p, 0, c) - half_mean(film, p, 1, c);
+            if (d != 0.0)
+                sum += 0.25 * d * d / (m * m + floor);
+        }
+    return pixels ? sqrt(sum / (3.0 * (double)pixels)) : 0.0;
+}
+
+static void resolve_pixel(const struct film *f, const film_pixel *p,
+                          bool omit_background, size_t at,
+                          struct brume_frame *frame)
+{
+    double lines = pixel_lines(f->samples, 0) + pixel_lines(f->samples, 1);
+    for (int c = 0; c < 3; c++) {
+        double m = mean(f, p, c);
+        if (omit_background)
+            m -= p->background[c] / lines;
+        frame->radiance[3 * at + (size_t)c] = (float)m;
+        frame->opacity[3 * at + (size_t)c] = (float)(p->opacity[c] / lines);
+    }
+    frame->depth[at] = p->depth;
+}
+
+bool film_resolve(const struct film *film, bool omit_background,
+                  struct brume_frame *frame, struct brume_error *err)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    frame->width = film->width;
+    frame->height = film->height;
+    frame->radiance = memory_new(pixels, 3 * sizeof(float), err);
+    frame->opacity = memory_new(pixels, 3 * sizeof(float), err);
+    frame->depth = memory_new(pixels, sizeof(float), err);
+    if (!frame->radiance || !frame->opacity || !frame->depth) {
+        brume_frame_free(frame);
+        return false;
+    }
+    const film_pixel *p = film->pixel;
+    for (int y = film->y0; y < film->y1; y++)
+        for (int x = film->x0; x < film->x1; x++)
+            resolve_pixel(film, p++, omit_background,
+                          (size_t)y * (size_t)film->width + (size_t)x, frame);
+    return true;
+}
+
+void brume_frame_free(struct brume_frame *frame)
+{
+    free(frame->radiance);
+    free(frame->opacity);
+    free(frame->depth);
+    frame->radiance = frame->opacity = frame->depth = NULL;
+}

@@ -1,0 +1,50 @@
+#include "core/flat.h"
+#include <stdlib.h>
+#include <string.h>
+#include "lib/memory.h"
+
+void *flat_extend(void **array, size_t *capacity, size_t *count, size_t more,
+                  size_t size, struct brume_error *err)
+{
+    void *grown = memory_grow(*array, capacity, *count + more, size, err);
+    if (!grown)
+        return NULL;
+    *array = grown;
+    void *first = (char *)grown + *count * size;
+    memset(first, 0, more * size);
+    *count += more;
+    return first;
+}
+
+void flat_view(struct flat *flat)
+{
+#define X(type, name)                                                         \
+    flat->view.name = flat->name;                                             \
+    flat->view.name##_count = flat->name##_count;
+    SCENE_ARRAYS(X)
+#undef X
+}
+
+uint64_t flat_bytes(const struct flat *flat)
+{
+    uint64_t bytes = sizeof *flat;
+#define X(type, name) bytes += flat->name##_capacity * sizeof(type);
+    SCENE_ARRAYS(X)
+#undef X
+    return bytes;
+}
+
+struct flat *flat_new(struct brume_error *err)
+{
+    return memory_new(1, sizeof(struct flat), err);
+}
+
+void flat_free(struct flat *flat)
+{
+    if (!flat)
+        return;
+#define X(type, name) free(flat->name);
+    SCENE_ARRAYS(X)
+#undef X
+    free(flat);
+}

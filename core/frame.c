@@ -1,0 +1,242 @@
+/* One frame: prepare the scene, choose a backend, sample until the picture is
+ * as good as asked, resolve. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "core/backend.h"
+#include "core/prepare.h"
+#include "lib/timer.h"
+
+/* Samples of the first pass: enough for a first estimate of the error. */
+#define FIRST_PASS 8u
+
+struct frame_job {
+    const struct brume_options *options;
+    struct brume_frame *out;
+    struct film film;
+    double start, sampling;     /* seconds of the clock                    */
+    double error;               /* aimed at, 0: none                       */
+    uint32_t most;              /* samples                                 */
+    uint32_t pass;              /* samples of the current pass             */
+    bool stopped;
+};
+
+static const struct backend *choose_backend(const struct brume_options *o,
+                                            struct brume_error *err)
+{
+#ifdef BRUME_CUDA
+    char why[256] = "";
+    bool gpu = o->backend != BRUME_BACKEND_CPU &&
+               backend_cuda.available(why, sizeof why);
+    if (gpu)
+        return &backend_cuda;
+    if (o->backend == BRUME_BACKEND_CUDA) {
+        brume_fail(err, BRUME_ERR_DEVICE, "no GPU can be used: %s", why);
+        return NULL;
+    }
+#else
+    if (o->backend == BRUME_BACKEND_CUDA) {
+        brume_fail(err, BRUME_ERR_DEVICE,
+                   "this brume was built without a CUDA backend");
+        return NULL;
+    }
+#endif
+    return &backend_cpu;
+}
+
+static void set_goal(struct frame_job *j)
+{
+    const struct brume_options *o = j->options;
+    bool none = o->spp <= 0 && o->error <= 0.0 && o->seconds <= 0.0;
+    j->error = none ? BRUME_DEFAULT_ERROR : fmax(o->error, 0.0);
+    j->most = o->spp > 0 ? (uint32_t)o->spp : BRUME_MAX_SPP;
+}
+
+/* How much of the whole is done, as far as can be told. */
+static double fraction(const struct frame_job *j, double samples)
+{
+    double part = samples / j->most;
+    double estimate = j->out->stats.error;
+    if (j->error > 0.0 && estimate > 0.0 && isfinite(estimate)) {
+        double need = j->film.samples * (estimate / j->error) *
+                      (estimate / j->error);
+        part = fmax(part, samples / fmax(need, 1.0));
+    }
+    if (j->options->seconds > 0.0)
+        part = fmax(part, (timer_seconds() - j->start) / j->options->seconds);
+    return fmin(part, 1.0);
+}
+
+static bool tick(void *user, double done)
+{
+    struct frame_job *j = user;
+    if (!j->options->progress)
+        return true;
+    double now = timer_seconds(), samples = j->film.samples + done * j->pass;
+    struct brume_progress p = {
+        .stage = "path", .item = "paths",
+        .fraction = fraction(j, samples),
+        .seconds = now - j->start,
+    };
+    if (now > j->sampling)
+        p.rate = samples * (double)film_pixels(&j->film) / (now - j->sampling);
+    if (!j->options->progress(j->options->user, &p))
+        j->stopped = true;
+    return !j->stopped;
+}
+
+/* Samples that the error still asks for; 0: enough. `met` counts successive
+ * checks at which it was small enough: two are wanted, since a check that
+ * stops at the first lucky estimate stops too early. Nothing here may depend
+ * on time: pictures must not. */
+static uint32_t error_wants(const struct frame_job *j, int met)
+{
+    uint32_t n = j->film.samples;
+    if (met >= 2)
+        return 0;
+    if (met == 1)
+        return n / 8 + 1;
+    double ratio = j->out->stats.error / j->error;
+    double need = isfinite(ratio) ? n * ratio * ratio : 2.0 * n;
+    double more = fmin(fmax(need - n, n / 8 + 1.0), n);
+    return (uint32_t)more;
+}
+
+/* Samples that fit into the time left; at least one pass runs. */
+static uint32_t time_allows(const struct frame_job *j, uint32_t want)
+{
+    uint32_t n = j->film.samples;
+    if (j->options->seconds <= 0.0 || n == 0)
+        return want;
+    double now = timer_seconds();
+    double left = j->options->seconds - (now - j->start);
+    double fits = left * n / fmax(now - j->sampling, 1e-9);
+    return fits < 1.0 ? 0 : fits < want ? (uint32_t)fits : want;
+}
+
+static uint32_t next_pass(const struct frame_job *j, int met)
+{
+    uint32_t n = j->film.samples;
+    uint32_t want = n == 0 ? FIRST_PASS : n;
+    if (n > 0 && j->error > 0.0)
+        want = error_wants(j, met);
+    want += want & 1u;          /* the halves stay equal */
+    want = want < j->most - n ? want : j->most - n;
+    return time_allows(j, want);
+}
+
+static bool sample_passes(struct frame_job *j, const struct backend *b,
+                          void *state, struct brume_error *err)
+{
+    struct brume_stats *stats = &j->out->stats;
+    int met = 0;
+    j->sampling = timer_seconds();
+    while ((j->pass = next_pass(j, met)) > 0) {
+        if (!b->sample(state, j->pass, stats, err))
+            return false;
+        if (j->stopped)
+            return brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
+        j->film.samples += j->pass;
+        stats->error = film_error(&j->film);
+        met = stats->error <= j->error ? met + 1 : 0;
+    }
+    stats->spp = (int)j->film.samples;
+    stats->seconds_render = timer_seconds() - j->sampling;
+    return true;
+}
+
+static void warn(const struct frame_job *j, const char *text)
+{
+    if (j->options->warn)
+        j->options->warn(j->options->user, text);
+}
+
+/* What the user must know of how the goal was met. */
+static void report_goal(const struct frame_job *j)
+{
+    const struct brume_stats *s = &j->out->stats;
+    char text[256];
+    if (j->error > 0.0 && s->error > j->error &&
+        j->film.samples >= BRUME_MAX_SPP) {
+        snprintf(text, sizeof text, "the error of %g was not reached with %d "
+                 "samples per pixel; it is about %.3g", j->error, s->spp,
+                 s->error);
+        warn(j, text);
+    }
+    if (s->rejected > 0) {
+        snprintf(text, sizeof text, "%llu samples were not finite and were "
+                 "left out", (unsigned long long)s->rejected);
+        warn(j, text);
+    }
+}
+
+static bool check_memory(const struct frame_job *j, const struct flat *flat,
+                         struct brume_error *err)
+{
+    uint64_t bytes = flat_bytes(flat) +
+                     film_pixels(&j->film) * sizeof(film_pixel);
+    j->out->stats.bytes = bytes;
+    if (j->options->memory == 0 || bytes <= j->options->memory)
+        return true;
+    return brume_fail(err, BRUME_ERR_MEMORY,
+                      "the frame needs %.1f MiB but only %.1f may be used",
+                      (double)bytes / 1048576.0,
+                      (double)j->options->memory / 1048576.0);
+}
+
+static bool render_flat(struct frame_job *j, const struct flat *flat,
+                        struct brume_error *err)
+{
+    const struct backend *b = choose_backend(j->options, err);
+    if (!b || !film_init(&j->film, j->options, err) ||
+        !check_memory(j, flat, err))
+        return false;
+    struct stages stages = plan_stages(flat);
+    struct backend_frame frame = {flat, j->options, &stages, &j->film, tick,
+                                  j};
+    snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
+             b->name);
+    void *state = b->open(&frame, err);
+    if (!state)
+        return false;
+    j->out->stats.seconds_prepare = timer_seconds() - j->start;
+    bool good = sample_passes(j, b, state, err);
+    b->close(state);
+    return good && film_resolve(&j->film, j->options->omit_background, j->out,
+                                err);
+}
+
+static struct flat *prepare(brume_scene *scene,
+                            const struct brume_options *options,
+                            struct brume_error *err)
+{
+    struct prepare p = {.scene = scene, .threads = options->threads,
+                        .warn = options->warn, .user = options->user};
+    return prepare_scene(&p, err);
+}
+
+bool brume_render(brume_scene *scene, const struct brume_options *options,
+                  struct brume_frame *frame, struct brume_error *err)
+{
+    memset(frame, 0, sizeof *frame);
+    struct frame_job job = {.options = options, .out = frame,
+                            .start = timer_seconds()};
+    set_goal(&job);
+    struct flat *flat = prepare(scene, options, err);
+    bool good = flat && render_flat(&job, flat, err);
+    if (good)
+        report_goal(&job);
+    film_release(&job.film);
+    flat_free(flat);
+    return good;
+}
+
+bool brume_plan_frame(brume_scene *scene, const struct brume_options *options,
+                      struct brume_plan *plan, struct brume_error *err)
+{
+    struct flat *flat = prepare(scene, options, err);
+    if (flat)
+        plan_describe(scene, flat, options, plan);
+    flat_free(flat);
+    return flat != NULL;
+}

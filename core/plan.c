@@ -1,0 +1,166 @@
+#include "core/plan.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include "core/physics/pixel.h"
+
+static bool has_surfaces(const struct flat *f)
+{
+    for (size_t i = 0; i < f->shapes_count; i++)
+        if (f->shapes[i].material >= 0)
+            return true;
+    return false;
+}
+
+static bool has_emission(const struct flat *f)
+{
+    for (size_t i = 0; i < f->media_count; i++)
+        if (f->media[i].emits)
+            return true;
+    return false;
+}
+
+/* Whether any light can reach a scattering event in a medium. */
+static bool is_lit(const struct flat *f)
+{
+    const flat_scene *v = &f->view;
+    return f->lights_count > 0 ||
+           (v->media_multiple &&
+            (has_emission(f) ||
+             (v->environment && !rgb_is_black(v->background))));
+}
+
+struct stages plan_stages(const struct flat *f)
+{
+    struct stages s;
+    s.load = f->grids_count > 0;
+    s.accel = f->bvh_count > 0;
+    s.glow = f->glows_count > 0;
+    s.march = true;
+    s.path = has_surfaces(f) || (f->view.scatters && is_lit(f));
+    return s;
+}
+
+static void add_stage(struct brume_plan *plan, const char *name, bool runs,
+                      uint64_t bytes, const char *reason)
+{
+    struct brume_stage *s = &plan->stage[plan->stages++];
+    snprintf(s->name, sizeof s->name, "%s", name);
+    snprintf(s->reason, sizeof s->reason, "%s", reason);
+    s->runs = runs;
+    s->bytes = runs ? bytes : 0;
+}
+
+BRUME_PRINTF(2, 3)
+static void add_note(struct brume_plan *plan, const char *format, ...)
+{
+    if (plan->notes == BRUME_MAX_NOTES)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(plan->note[plan->notes], sizeof plan->note[0], format, args);
+    va_end(args);
+    plan->notes++;
+}
+
+static const char *path_reason(const struct flat *f, const struct stages *s)
+{
+    if (!s->path)
+        return f->view.scatters ? "nothing lights the scattering media"
+             : "no surface, and no medium scatters";
+    if (!f->view.scatters)
+        return "surfaces are lit";
+    return f->view.media_multiple ? "media scatter, many times"
+                                  : "media scatter, once";
+}
+
+static const char *glow_reason(const struct flat *f, const struct stages *s)
+{
+    if (s->glow)
+        return "emission of media lights the scene";
+    if (!has_emission(f))
+        return "no medium emits";
+    if (!f->view.media_multiple && !f->view.surfaces_indirect)
+        return "the transport follows no light beyond the first event";
+    return "emission has no grid, or is zero";
+}
+
+static uint64_t grid_bytes(const struct flat *f)
+{
+    return f->voxels_count * sizeof *f->voxels +
+           f->slots_count * sizeof *f->slots +
+           f->cells_count * sizeof *f->cells;
+}
+
+static void note_grids(const brume_scene *scene, const struct flat *f,
+                       struct brume_plan *plan)
+{
+    for (size_t i = 0; i < scene->grids_count; i++) {
+        const struct grid *g = scene->grids[i];
+        add_note(plan, "grid %zu '%s': %zu of %zu bricks stored, values %g "
+                 "to %g", i, g->name, g->stored,
+                 (size_t)g->bricks[0] * (size_t)g->bricks[1] *
+                 (size_t)g->bricks[2],
+                 (double)g->lowest, (double)g->highest);
+    }
+    if (f->cells_count > 0)
+        add_note(plan, "majorants: %zu cells of 8^3 voxels", f->cells_count);
+}
+
+/* The range a field's file says it has. */
+static void field_range(const brume_scene *s, int field, double *lo,
+                        double *hi)
+{
+    const struct brume_field *f = &s->fields[field];
+    *lo = *hi = f->scale;
+    if (f->kind == BRUME_FIELD_GRID) {
+        *lo *= (double)s->grids[f->grid]->lowest;
+        *hi *= (double)s->grids[f->grid]->highest;
+    }
+}
+
+static void note_fires(const brume_scene *scene, struct brume_plan *plan)
+{
+    for (size_t i = 0; i < scene->media_count; i++) {
+        const struct brume_fire *f = &scene->media[i].fire;
+        double lo, hi;
+        if (!f->on)
+            continue;
+        field_range(scene, f->temperature, &lo, &hi);
+        lo = f->kelvin_scale * lo + f->kelvin_offset;
+        hi = f->kelvin_scale * hi + f->kelvin_offset;
+        add_note(plan, "fire of medium %zu: %.0f to %.0f kelvin%s", i,
+                 fmin(lo, hi), fmax(lo, hi), fmax(lo, hi) < 500.0
+                 ? ", too cold to be seen (a black body glows from 500)"
+                 : "");
+        if (!f->additive && scene->media[i].absorption[0] == 0.0 &&
+            scene->media[i].absorption[1] == 0.0 &&
+            scene->media[i].absorption[2] == 0.0)
+            add_note(plan, "fire of medium %zu: its coupling is absorption, "
+                     "which is zero, so it emits nothing", i);
+    }
+}
+
+void plan_describe(const brume_scene *scene, const struct flat *f,
+                   const struct brume_options *options,
+                   struct brume_plan *plan)
+{
+    struct stages s = plan_stages(f);
+    uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
+    memset(plan, 0, sizeof *plan);
+    add_stage(plan, "load", s.load, grid_bytes(f),
+              s.load ? "media read grids" : "no medium reads a grid");
+    add_stage(plan, "accel", s.accel,
+              f->bvh_count * sizeof *f->bvh +
+              f->triangles_count * sizeof *f->triangles,
+              s.accel ? "there is bounded geometry"
+                      : "there is no bounded geometry");
+    add_stage(plan, "glow", s.glow, f->glow_voxels_count * sizeof(float),
+              glow_reason(f, &s));
+    add_stage(plan, "march", s.march, pixels * sizeof(film_pixel),
+              "opacity, depth, background and emission toward the eye");
+    add_stage(plan, "path", s.path, 0, path_reason(f, &s));
+    note_grids(scene, f, plan);
+    note_fires(scene, plan);
+}

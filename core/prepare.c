@@ -1,0 +1,276 @@
+/* Unit space, camera, materials and lights; and the order of all parts. */
+#include "core/prepare.h"
+#include <math.h>
+#include <string.h>
+#include "core/blackbody.h"
+#include "core/physics/inside.h"
+
+#define PI 3.14159265358979323846
+
+/* Rays end here at the latest, in scene units, as in POV-Ray. */
+#define FAR 1e7
+
+struct bounds { double lo[3], hi[3]; };
+
+static void bounds_add(struct bounds *b, const double p[3])
+{
+    for (int i = 0; i < 3; i++) {
+        b->lo[i] = fmin(b->lo[i], p[i]);
+        b->hi[i] = fmax(b->hi[i], p[i]);
+    }
+}
+
+static void bounds_add_ball(struct bounds *b, const matrix *m,
+                            const double p[3], double radius)
+{
+    for (int i = 0; i < 8; i++) {
+        double q[3] = {p[0] + (i & 1 ? radius : -radius),
+                       p[1] + (i & 2 ? radius : -radius),
+                       p[2] + (i & 4 ? radius : -radius)};
+        matrix_point(m, q, q);
+        bounds_add(b, q);
+    }
+}
+
+static void bounds_add_shape(struct bounds *b, const brume_scene *scene,
+                             const struct brume_shape *s)
+{
+    matrix m = matrix_from(s->transform);
+    double p[3];
+    switch (s->kind) {
+    case BRUME_SHAPE_PLANE:
+        return;
+    case BRUME_SHAPE_SPHERE:
+    case BRUME_SHAPE_DISC:
+        bounds_add_ball(b, &m, s->a, s->radius);
+        return;
+    case BRUME_SHAPE_CYLINDER:
+    case BRUME_SHAPE_CONE:
+        bounds_add_ball(b, &m, s->a, s->radius);
+        bounds_add_ball(b, &m, s->b, s->kind == BRUME_SHAPE_CONE
+                                         ? s->radius_b : s->radius);
+        return;
+    case BRUME_SHAPE_BOX:
+        for (int i = 0; i < 8; i++) {
+            for (int k = 0; k < 3; k++)
+                p[k] = i >> k & 1 ? s->b[k] : s->a[k];
+            matrix_point(&m, p, p);
+            bounds_add(b, p);
+        }
+        return;
+    case BRUME_SHAPE_MESH:
+        for (size_t i = 0; i < scene->meshes[s->mesh]->vertices; i++) {
+            matrix_point(&m, scene->meshes[s->mesh]->position[i], p);
+            bounds_add(b, p);
+        }
+    }
+}
+
+/* A power of two that brings the scene's extent near 1, so that usual numbers
+ * keep their bits, and an origin only where the scene lies far from it. */
+static void set_unit(struct flat *f, const brume_scene *scene)
+{
+    struct bounds b = {{INFINITY, INFINITY, INFINITY},
+                       {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < scene->shapes_count; i++)
+        bounds_add_shape(&b, scene, &scene->shapes[i]);
+    double extent = 0.0, away = 0.0;
+    for (int i = 0; i < 3; i++) {
+        if (!(b.hi[i] >= b.lo[i]))
+            continue;
+        extent = fmax(extent, b.hi[i] - b.lo[i]);
+        away = fmax(away, fabs(0.5 * (b.lo[i] + b.hi[i])));
+    }
+    if (!(extent > 0.0))
+        extent = 1.0;
+    int exponent;
+    frexp(extent, &exponent);
+    f->unit = ldexp(1.0, 1 - exponent);
+    double move[3];
+    for (int i = 0; i < 3; i++) {
+        f->centre[i] = away > 16.0 * extent ? 0.5 * (b.lo[i] + b.hi[i]) : 0.0;
+        move[i] = -f->centre[i] * f->unit;
+    }
+    f->to_unit = matrix_scale_move(f->unit, move);
+    f->from_unit = matrix_scale_move(1.0 / f->unit, f->centre);
+    f->view.unit = (float)f->unit;
+    f->view.far = (float)fmax(FAR * f->unit, 1e4);
+}
+
+static vec3 make_vec3(const double v[3])
+{
+    return vec3_make((float)v[0], (float)v[1], (float)v[2]);
+}
+
+static vec3 unit_point(const struct flat *f, const double p[3])
+{
+    double q[3];
+    matrix_point(&f->to_unit, p, q);
+    return make_vec3(q);
+}
+
+static rgb color(const double c[3])
+{
+    return rgb_make((float)c[0], (float)c[1], (float)c[2]);
+}
+
+/* A perspective ray's direction is scaled to be near 1 long; only
+ * orthographic extents are lengths. */
+static void set_camera(struct flat *f, const struct brume_camera *c)
+{
+    camera *v = &f->view.view;
+    const double *d = c->direction;
+    double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double direction[3], up[3], right[3];
+    v->orthographic = c->kind == BRUME_CAMERA_ORTHOGRAPHIC;
+    double scale = v->orthographic ? f->unit : 1.0 / size;
+    for (int i = 0; i < 3; i++) {
+        direction[i] = d[i] / size;
+        up[i] = c->up[i] * scale;
+        right[i] = c->right[i] * scale;
+    }
+    v->location = unit_point(f, c->location);
+    v->direction = make_vec3(direction);
+    v->up = make_vec3(up);
+    v->right = make_vec3(right);
+}
+
+static void set_globals(struct flat *f, const struct brume_globals *g)
+{
+    flat_scene *v = &f->view;
+    v->background = color(g->background);
+    v->media_multiple = g->media_multiple;
+    v->surfaces_indirect = g->surfaces_indirect;
+    v->environment = g->environment;
+    v->physical_units = g->physical_units;
+}
+
+static bool add_material(const struct prepare *job,
+                         const struct brume_material *in,
+                         struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    const struct brume_globals *g = &job->scene->globals;
+    flat_material *out = FLAT_EXTEND(f, materials, 1, err);
+    if (!out)
+        return false;
+    out->checker = in->pigment == BRUME_PIGMENT_CHECKER;
+    for (int i = 0; i < 2; i++) {
+        out->color[i] = color(in->color[i]);
+        out->filter[i] = (float)in->color[i][3];
+        out->transmit[i] = (float)in->color[i][4];
+    }
+    matrix placed = matrix_from(in->pigment_transform), to_pattern;
+    placed = matrix_compose(&f->to_unit, &placed);
+    if (!matrix_invert(&placed, &to_pattern))
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "a pigment's transform has no inverse");
+    out->to_pattern = matrix_affine(&to_pattern);
+    rgb ambient = rgb_mul(color(in->ambient), color(g->ambient_light));
+    out->ambient = g->surfaces_indirect ? rgb_gray(0.0f) : ambient;
+    out->emission = color(in->emission);
+    out->diffuse = (float)in->diffuse;
+    out->brilliance = (float)in->brilliance;
+    out->phong = (float)in->phong;
+    out->phong_size = (float)in->phong_size;
+    out->specular = (float)in->specular;
+    out->roughness = (float)in->roughness;
+    out->metallic = (float)in->metallic;
+    return true;
+}
+
+static double light_weight(const struct brume_light *l)
+{
+    return fabs(l->color[0]) + fabs(l->color[1]) + fabs(l->color[2]);
+}
+
+static bool add_light(const struct prepare *job, const struct brume_light *in,
+                      struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    flat_light *out = FLAT_EXTEND(f, lights, 1, err);
+    if (!out)
+        return false;
+    double axis[3];
+    for (int i = 0; i < 3; i++)
+        axis[i] = in->point_at[i] - in->location[i];
+    out->spot = in->kind == BRUME_LIGHT_SPOT;
+    out->position = unit_point(f, in->location);
+    out->axis = vec3_normalize(make_vec3(axis));
+    out->color = color(in->color);
+    out->cos_radius = (float)cos(in->radius * PI / 180.0);
+    out->cos_falloff = (float)cos(in->falloff * PI / 180.0);
+    out->tightness = (float)in->tightness;
+    out->fade_distance = (float)(in->fade_distance * f->unit);
+    out->fade_power = (float)in->fade_power;
+    out->shadows = in->shadows;
+    out->media_interaction = in->media_interaction;
+    out->media_attenuation = in->media_attenuation;
+    return true;
+}
+
+/* Lights are chosen in proportion to their colour; black ones never. */
+static bool add_lights(const struct prepare *job, struct brume_error *err)
+{
+    const brume_scene *s = job->scene;
+    double total = 0.0, sum = 0.0;
+    for (size_t i = 0; i < s->lights_count; i++)
+        total += light_weight(&s->lights[i]);
+    for (size_t i = 0; total > 0.0 && i < s->lights_count; i++) {
+        sum += light_weight(&s->lights[i]);
+        if (!add_light(job, &s->lights[i], err))
+            return false;
+        job->flat->lights[i].cumulative = (float)(sum / total);
+    }
+    return true;
+}
+
+/* The containers of a perspective camera's eye, found once. */
+static bool add_eye(struct flat *f, struct brume_error *err)
+{
+    container_set set;
+    inside_find(&f->view, f->view.view.location, &set);
+    int32_t *out = FLAT_EXTEND(f, camera_containers, (size_t)set.count, err);
+    for (int i = 0; out && i < set.count; i++)
+        out[i] = set.shape[i];
+    return out != NULL || set.count == 0;
+}
+
+static bool prepare_all(const struct prepare *job, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    const brume_scene *s = job->scene;
+    blackbody_table *table = FLAT_EXTEND(f, blackbody, 1, err);
+    if (!table)
+        return false;
+    blackbody_fill(table);
+    set_unit(f, s);
+    set_camera(f, &s->camera);
+    set_globals(f, &s->globals);
+    for (size_t i = 0; i < s->materials_count; i++)
+        if (!add_material(job, &s->materials[i], err))
+            return false;
+    if (!add_lights(job, err) || !prepare_shapes(job, err) ||
+        !prepare_grids(job, err) || !prepare_media(job, err) ||
+        !prepare_glow(job, err))
+        return false;
+    flat_view(f);
+    if (!add_eye(f, err))
+        return false;
+    flat_view(f);
+    return true;
+}
+
+struct flat *prepare_scene(const struct prepare *request,
+                           struct brume_error *err)
+{
+    struct prepare job = *request;
+    job.flat = flat_new(err);
+    if (!job.flat)
+        return NULL;
+    if (!prepare_all(&job, err)) {
+        flat_free(job.flat);
+        return NULL;
+    }
+    return job.flat;
+}

@@ -1,0 +1,34 @@
+/* prepare.h - from the scene as told to the flat scene that stages read. One
+ * file a topic; all are called by prepare_scene in this order. */
+#ifndef CORE_PREPARE_H
+#define CORE_PREPARE_H
+#include "core/flat.h"
+
+struct prepare {
+    const brume_scene *scene;
+    struct flat *flat;
+    int threads;
+    void (*warn)(void *user, const char *text);     /* may be NULL */
+    void *user;
+};
+
+/* The whole of it; NULL with err set on failure. */
+struct flat *prepare_scene(const struct prepare *job, struct brume_error *err);
+
+/* prepare_shapes.c: shapes, triangles, their bounds and the tree. */
+bool prepare_shapes(const struct prepare *job, struct brume_error *err);
+/* prepare_grids.c: bricks with aprons, fields. */
+bool prepare_grids(const struct prepare *job, struct brume_error *err);
+/* prepare_media.c: media, their majorant lattices, interiors. */
+bool prepare_media(const struct prepare *job, struct brume_error *err);
+/* prepare_glow.c: the emitting voxels as lights, where light is followed. */
+bool prepare_glow(const struct prepare *job, struct brume_error *err);
+
+/* The largest value of a field over a box of unit space (or of the lattice
+ * that `to_unit` maps from). */
+float prepare_field_bound(const struct flat *flat, int field,
+                          const matrix *to_unit, const double lo[3],
+                          const double hi[3]);
+/* The same over all space, and what it is outside of every grid. */
+float prepare_field_bound_everywhere(const struct flat *flat, int field);
+#endif

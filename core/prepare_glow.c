@@ -1,0 +1,175 @@
+/* The emitting voxels of media as lights (physics/glow.h): each voxel weighs
+ * by the mean luminance that its parts emit. Only where light is followed
+ * beyond the first event can such a light reach anything. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "core/physics/medium.h"
+#include "core/prepare.h"
+#include "lib/thread.h"
+
+struct glow_job {
+    const struct flat *flat;
+    const flat_medium *medium;
+    flat_glow *glow;
+    float *voxels;          /* 512 a brick: weights, then cumulative       */
+    glow_brick *bricks;
+    double *weight;         /* of each brick                               */
+};
+
+/* Negative channels of saturated colours count by their size. */
+static float point_weight(const struct glow_job *job, vec3 p)
+{
+    const flat_scene *s = &job->flat->view;
+    rgb q = medium_source(s, job->medium, p,
+                          medium_density(s, job->medium, p));
+    return fabsf(q.r) * 0.2126f + fabsf(q.g) * 0.7152f +
+           fabsf(q.b) * 0.0722f;
+}
+
+/* Mean over the centres of the voxel's eighths. */
+static float voxel_weight(const struct glow_job *job, const glow_brick *b,
+                          int voxel)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < 8; i++) {
+        vec3 q = vec3_make(
+            (float)(b->corner[0] + (voxel & 7)) + (i & 1 ? 0.75f : 0.25f),
+            (float)(b->corner[1] + (voxel >> 3 & 7)) + (i & 2 ? 0.75f : 0.25f),
+            (float)(b->corner[2] + (voxel >> 6)) + (i & 4 ? 0.75f : 0.25f));
+        sum += point_weight(job, affine_point(&job->glow->from_index, q));
+    }
+    return isfinite(sum) ? sum / 8.0f : 0.0f;
+}
+
+static void weigh_brick(void *context, size_t index, int thread)
+{
+    (void)thread;
+    const struct glow_job *job = context;
+    float *v = job->voxels + 512 * index;
+    double sum = 0.0;
+    for (int i = 0; i < 512; i++) {
+        sum += (double)voxel_weight(job, &job->bricks[index], i);
+        v[i] = (float)sum;
+    }
+    job->weight[index] = sum;
+    for (int i = 0; sum > 0.0 && i < 512; i++)
+        v[i] = (float)(v[i] / sum);
+}
+
+/* One brick for each cell of the majorant lattice that may glow. */
+static bool list_bricks(struct flat *f, const flat_medium *m, flat_glow *g,
+                        struct brume_error *err)
+{
+    size_t cells = (size_t)m->cells[0] * (size_t)m->cells[1] *
+                   (size_t)m->cells[2];
+    g->slot = f->glow_slots_count;
+    g->first = f->glow_bricks_count;
+    int32_t *slots = FLAT_EXTEND(f, glow_slots, cells, err);
+    if (!slots)
+        return false;
+    for (size_t i = 0; i < cells; i++)
+        slots[i] = f->cells[m->cell + i].rate > 0.0f ? (int32_t)g->count++
+                                                     : -1;
+    glow_brick *bricks = FLAT_EXTEND(f, glow_bricks, g->count, err);
+    if (!bricks || !FLAT_EXTEND(f, glow_voxels, 512 * g->count, err))
+        return false;
+    for (size_t i = 0; i < cells; i++) {
+        if (slots[i] < 0)
+            continue;
+        size_t rest = i;
+        for (int k = 0; k < 3; k++) {
+            int at = (int)(rest % (size_t)m->cells[k]);
+            bricks[slots[i]].corner[k] = g->origin[k] + 8 * at;
+            rest /= (size_t)m->cells[k];
+        }
+    }
+    return true;
+}
+
+static bool place(flat_glow *g, const flat_medium *m)
+{
+    matrix to_cell, to_index, from_index;
+    const double none[3] = {0, 0, 0};
+    for (int i = 0; i < 12; i++)
+        to_cell.m[i / 4][i % 4] = m->to_cell.m[i];
+    to_index = matrix_scale_move(8.0, none);
+    to_index = matrix_compose(&to_index, &to_cell);
+    if (!matrix_invert(&to_index, &from_index))
+        return false;
+    g->to_index = matrix_affine(&to_index);
+    g->from_index = matrix_affine(&from_index);
+    g->voxel_volume = (float)fabs(matrix_determinant(&from_index));
+    memcpy(g->bricks, m->cells, sizeof g->bricks);
+    return g->voxel_volume > 0.0f;
+}
+
+/* Weighs the bricks; the list's whole power in *power. */
+static bool weigh(const struct prepare *job, const flat_medium *m,
+                  flat_glow *g, double *power, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    struct glow_job w = {.flat = f, .medium = m, .glow = g};
+    w.voxels = f->glow_voxels + 512 * g->first;
+    w.bricks = f->glow_bricks + g->first;
+    w.weight = calloc(g->count + 1, sizeof *w.weight);
+    if (!w.weight)
+        return brume_fail(err, BRUME_ERR_MEMORY,
+                          "out of memory for %zu emitting bricks",
+                          (size_t)g->count);
+    flat_view(f);
+    parallel_for(job->threads, g->count, weigh_brick, &w, NULL);
+    double total = 0.0, sum = 0.0;
+    for (size_t i = 0; i < g->count; i++)
+        total += w.weight[i];
+    for (size_t i = 0; total > 0.0 && i < g->count; i++) {
+        sum += w.weight[i];
+        w.bricks[i].cumulative = (float)(sum / total);
+    }
+    *power = total * g->voxel_volume;
+    free(w.weight);
+    return true;
+}
+
+static bool add_glow(const struct prepare *job, int32_t medium,
+                     double *power, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    flat_glow g;
+    memset(&g, 0, sizeof g);
+    g.medium = medium;
+    *power = 0.0;
+    if (!place(&g, &f->media[medium]))
+        return true;
+    if (!list_bricks(f, &f->media[medium], &g, err) ||
+        (g.count > 0 && !weigh(job, &f->media[medium], &g, power, err)))
+        return false;
+    if (!(*power > 0.0))
+        return true;
+    g.probability = (float)*power;      /* of all lists: below */
+    f->media[medium].glow = (int32_t)f->glows_count;
+    flat_glow *out = FLAT_EXTEND(f, glows, 1, err);
+    if (out)
+        *out = g;
+    return out != NULL;
+}
+
+bool prepare_glow(const struct prepare *job, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    double total = 0.0;
+    const struct brume_globals *g = &job->scene->globals;
+    if (!g->media_multiple && !g->surfaces_indirect)
+        return true;
+    for (size_t i = 0; i < f->media_count; i++) {
+        double power = 0.0;
+        if (f->media[i].emits && !f->media[i].uniform &&
+            !add_glow(job, (int32_t)i, &power, err))
+            return false;
+        total += power;
+    }
+    for (size_t i = 0; i < f->glows_count; i++)
+        f->glows[i].probability = (float)(f->glows[i].probability / total);
+    flat_view(f);
+    return true;
+}

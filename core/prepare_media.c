@@ -1,0 +1,413 @@
+/* Media and their majorant lattices: cells of 8^3 voxels of the grid that
+ * leads, each with a bound on the product of the density fields and a word on
+ * whether something glows there. */
+#include <math.h>
+#include <string.h>
+#include "core/blackbody.h"
+#include "core/prepare.h"
+#include "lib/thread.h"
+
+/* More cells than this and the lattice itself would be the cost. */
+#define MAX_CELLS ((size_t)1 << 27)
+
+/* Emission samples per voxel that a ray crosses, and in a medium without a
+ * grid per unit-space length (the scene is about 1 long). */
+#define SAMPLES_PER_VOXEL 1.0
+#define SAMPLES_PER_UNIT 8.0
+
+struct lattice {
+    const struct flat *flat;
+    flat_medium *medium;
+    matrix to_unit;         /* lattice index space to unit space           */
+    int32_t origin[3];
+    float rate;
+    majorant_cell *cell;
+};
+
+static bool is_grid(const struct flat *f, int field)
+{
+    return field >= 0 && f->fields[field].kind == FIELD_GRID;
+}
+
+/* The grid whose bricks become the lattice: the first density, or what an
+ * additive fire reads; -1 where all is constant. */
+static int lead_field(const struct flat *f, const flat_medium *m)
+{
+    for (int i = 0; i < m->densities; i++)
+        if (is_grid(f, m->density[i]))
+            return m->density[i];
+    if (m->fire && is_grid(f, m->amount))
+        return m->amount;
+    return m->fire && is_grid(f, m->temperature) ? m->temperature : -1;
+}
+
+static matrix affine_matrix(const affine *a)
+{
+    matrix out;
+    for (int i = 0; i < 12; i++)
+        out.m[i / 4][i % 4] = a->m[i];
+    return out;
+}
+
+static void field_box(const struct flat *f, int field, double lo[3],
+                      double hi[3])
+{
+    const flat_grid *g = &f->grids[f->fields[field].grid];
+    for (int i = 0; i < 3; i++) {
+        lo[i] = g->origin[i] - 1.0;
+        hi[i] = g->origin[i] + 8.0 * g->bricks[i];
+    }
+}
+
+/* Widens [lo, hi] of the lead's index space by another field's box. */
+static bool include_field(const struct flat *f, const matrix *to_lead,
+                          int field, double lo[3], double hi[3])
+{
+    matrix to_index = affine_matrix(&f->fields[field].to_index), back, map;
+    if (!matrix_invert(&to_index, &back))
+        return false;
+    map = matrix_compose(to_lead, &back);
+    double a[3], b[3];
+    field_box(f, field, a, b);
+    for (int c = 0; c < 8; c++) {
+        double p[3] = {c & 1 ? b[0] : a[0], c & 2 ? b[1] : a[1],
+                       c & 4 ? b[2] : a[2]}, q[3];
+        matrix_point(&map, p, q);
+        for (int i = 0; i < 3; i++) {
+            lo[i] = fmin(lo[i], q[i]);
+            hi[i] = fmax(hi[i], q[i]);
+        }
+    }
+    return true;
+}
+
+/* Cells from the lowest brick to the highest that may hold something. */
+static bool lattice_extent(struct lattice *l, int lead,
+                           struct brume_error *err)
+{
+    const struct flat *f = l->flat;
+    const flat_medium *m = l->medium;
+    const flat_grid *g = &f->grids[f->fields[lead].grid];
+    matrix to_lead = affine_matrix(&f->fields[lead].to_index);
+    double lo[3], hi[3];
+    for (int i = 0; i < 3; i++) {
+        lo[i] = g->origin[i];
+        hi[i] = g->origin[i] + 8.0 * g->bricks[i];
+    }
+    int more[2] = {m->fire && m->additive ? m->amount : -1,
+                   m->fire && m->additive ? m->temperature : -1};
+    for (int i = 0; i < 2; i++)
+        if (is_grid(f, more[i]) && more[i] != lead)
+            include_field(f, &to_lead, more[i], lo, hi);
+    double cells = 1.0;
+    for (int i = 0; i < 3; i++) {
+        double first = floor((lo[i] - g->origin[i]) / 8.0);
+        double count = ceil((hi[i] - g->origin[i]) / 8.0) - first;
+        cells *= count;
+        if (cells > (double)MAX_CELLS)
+            return brume_fail(err, BRUME_ERR_LIMIT,
+                              "a medium's grids lie so far apart that their "
+                              "common lattice has over %zu cells", MAX_CELLS);
+        l->origin[i] = g->origin[i] + 8 * (int32_t)first;
+        l->medium->cells[i] = (int32_t)count;
+    }
+    return true;
+}
+
+static bool glows(const flat_medium *m, float density, float kelvin,
+                  float amount)
+{
+    bool plain = density > 0.0f && !rgb_is_black(m->emission);
+    if (!m->fire || m->intensity == 0.0f)
+        return plain;
+    bool coupled = m->additive ||
+                   (density > 0.0f && !rgb_is_black(m->sigma_a));
+    return plain || (coupled && amount > 0.0f &&
+                     kelvin >= BLACKBODY_LOWEST_KELVIN);
+}
+
+typedef float field_bound(const struct lattice *l, int field,
+                          const double lo[3], const double hi[3]);
+
+static float bound_in_box(const struct lattice *l, int field,
+                          const double lo[3], const double hi[3])
+{
+    return prepare_field_bound(l->flat, field, &l->to_unit, lo, hi);
+}
+
+static float bound_everywhere(const struct lattice *l, int field,
+                              const double lo[3], const double hi[3])
+{
+    (void)lo;
+    (void)hi;
+    return prepare_field_bound_everywhere(l->flat, field);
+}
+
+/* Beyond the lattice: a grid that the lattice covers is its background. */
+static float bound_beyond(const struct lattice *l, int field,
+                          const double lo[3], const double hi[3])
+{
+    const struct flat *f = l->flat;
+    if (!is_grid(f, field))
+        return f->fields[field].scale;
+    matrix to_index = affine_matrix(&f->fields[field].to_index), back, map;
+    matrix to_lattice;
+    double a[3], b[3];
+    field_box(f, field, a, b);
+    if (!matrix_invert(&to_index, &back) ||
+        !matrix_invert(&l->to_unit, &to_lattice))
+        return prepare_field_bound_everywhere(f, field);
+    map = matrix_compose(&to_lattice, &back);
+    const double slack = 1.001;     /* the margin of field_box, and rounding */
+    for (int c = 0; c < 8; c++) {
+        double p[3] = {c & 1 ? b[0] : a[0], c & 2 ? b[1] : a[1],
+                       c & 4 ? b[2] : a[2]}, q[3];
+        matrix_point(&map, p, q);
+        for (int i = 0; i < 3; i++)
+            if (q[i] < lo[i] - slack || q[i] > hi[i] + slack)
+                return prepare_field_bound_everywhere(f, field);
+    }
+    const flat_grid *g = &f->grids[f->fields[field].grid];
+    return f->fields[field].scale * (g->clip ? 0.0f : f->tiles[g->tile]);
+}
+
+static majorant_cell cell_bound(const struct lattice *l, field_bound *bound,
+                                const double lo[3], const double hi[3])
+{
+    const flat_medium *m = l->medium;
+    majorant_cell out = {1.0f, 0.0f};
+    for (int i = 0; i < m->densities; i++)
+        out.density *= bound(l, m->density[i], lo, hi);
+    float kelvin = 0.0f, amount = 1.0f;
+    if (m->fire) {
+        float t = bound(l, m->temperature, lo, hi);
+        kelvin = m->kelvin_offset + fmaxf(m->kelvin_scale * t, 0.0f);
+        if (m->amount >= 0)
+            amount = bound(l, m->amount, lo, hi);
+    }
+    if (glows(m, out.density, kelvin, amount))
+        out.rate = l->rate;
+    return out;
+}
+
+static void fill_cell(void *context, size_t index, int thread)
+{
+    (void)thread;
+    struct lattice *l = context;
+    double lo[3], hi[3];
+    size_t rest = index;
+    for (int i = 0; i < 3; i++) {
+        size_t n = (size_t)l->medium->cells[i];
+        lo[i] = l->origin[i] + 8.0 * (double)(rest % n);
+        hi[i] = lo[i] + 8.0;
+        rest /= n;
+    }
+    l->cell[index] = cell_bound(l, bound_in_box, lo, hi);
+}
+
+static float neighbours_bound(const struct lattice *l, size_t index)
+{
+    const int32_t *n = l->medium->cells;
+    int c[3] = {(int)(index % (size_t)n[0]),
+                (int)(index / (size_t)n[0] % (size_t)n[1]),
+                (int)(index / (size_t)n[0] / (size_t)n[1])};
+    float most = l->medium->outside.density;
+    for (int i = 0; i < 27; i++) {
+        int x = c[0] + i % 3 - 1, y = c[1] + i / 3 % 3 - 1,
+            z = c[2] + i / 9 - 1;
+        if (x < 0 || y < 0 || z < 0 || x >= n[0] || y >= n[1] || z >= n[2])
+            continue;
+        size_t at = (size_t)x + (size_t)n[0] *
+                    ((size_t)y + (size_t)n[1] * (size_t)z);
+        most = fmaxf(most, l->cell[at].density);
+    }
+    return most;
+}
+
+/* A position that rounding puts up to 2^-10 voxel into the next cell reads a
+ * value between this cell's bound and that one's: allow for it, in cells that
+ * are read at all. Works in place: a bound that has its share already only
+ * makes the next one's larger by 2^-20. */
+static void allow_for_rounding(struct lattice *l, size_t cells)
+{
+    for (size_t i = 0; i < cells; i++) {
+        float *d = &l->cell[i].density;
+        if (*d > 0.0f)
+            *d = *d * 1.000001f + neighbours_bound(l, i) / 1024.0f;
+    }
+}
+
+static bool make_lattice(const struct prepare *job, struct lattice *l,
+                         int lead, struct brume_error *err)
+{
+    flat_medium *m = l->medium;
+    matrix to_index = affine_matrix(&l->flat->fields[lead].to_index);
+    if (!matrix_invert(&to_index, &l->to_unit))
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "a grid's place in the scene has no inverse");
+    if (!lattice_extent(l, lead, err))
+        return false;
+    double lo[3], hi[3], back[3];
+    size_t cells = 1;
+    for (int i = 0; i < 3; i++) {
+        lo[i] = l->origin[i];
+        hi[i] = lo[i] + 8.0 * m->cells[i];
+        back[i] = -lo[i] / 8.0;
+        cells *= (size_t)m->cells[i];
+    }
+    matrix shift = matrix_scale_move(1.0 / 8.0, back);
+    shift = matrix_compose(&shift, &to_index);
+    m->to_cell = matrix_affine(&shift);
+    double voxel = cbrt(fabs(matrix_determinant(&l->to_unit)));
+    l->rate = (float)(SAMPLES_PER_VOXEL / voxel);
+    m->outside = cell_bound(l, bound_beyond, lo, hi);
+    m->cell = job->flat->cells_count;
+    l->cell = FLAT_EXTEND(job->flat, cells, cells, err);
+    if (!l->cell)
+        return false;
+    parallel_for(job->threads, cells, fill_cell, l, NULL);
+    allow_for_rounding(l, cells);
+    return true;
+}
+
+static bool make_bounds(const struct prepare *job, flat_medium *m,
+                        struct brume_error *err)
+{
+    struct lattice l = {.flat = job->flat, .medium = m};
+    int lead = lead_field(job->flat, m);
+    m->uniform = lead < 0;
+    l.rate = SAMPLES_PER_UNIT;
+    if (m->uniform)
+        m->outside = cell_bound(&l, bound_everywhere, NULL, NULL);
+    else if (!make_lattice(job, &l, lead, err))
+        return false;
+    m->kappa = l.rate;
+    m->emits = !rgb_is_black(m->emission) || (m->fire && m->intensity > 0.0f);
+    return true;
+}
+
+static void add_plane_field(const struct flat *f, flat_medium *m, int field)
+{
+    if (!is_grid(f, field))
+        return;
+    const flat_field *a = &f->fields[field];
+    for (int i = 0; i < m->planes; i++) {
+        const flat_field *b = &f->fields[m->plane_field[i]];
+        if (f->grids[a->grid].nearest == f->grids[b->grid].nearest &&
+            memcmp(&a->to_index, &b->to_index, sizeof a->to_index) == 0)
+            return;
+    }
+    m->plane_field[m->planes++] = field;
+}
+
+static rgb color_per_unit(const double c[3], double unit)
+{
+    return rgb_make((float)(c[0] / unit), (float)(c[1] / unit),
+                    (float)(c[2] / unit));
+}
+
+static void set_fire(const struct prepare *job, flat_medium *m,
+                     const struct brume_fire *fire)
+{
+    if (!fire->on)
+        return;
+    double intensity = fire->intensity;
+    if (fire->brightness == BRUME_BRIGHTNESS_PHYSICAL)
+        intensity /= blackbody_luminance(job->flat->blackbody,
+                                         (float)fire->reference);
+    m->fire = 1;
+    m->temperature = fire->temperature;
+    m->amount = fire->amount;
+    m->kelvin_scale = (float)fire->kelvin_scale;
+    m->kelvin_offset = (float)fire->kelvin_offset;
+    m->additive = fire->additive;
+    m->brightness = (int32_t)fire->brightness;
+    m->intensity = (float)(fire->additive ? intensity / job->flat->unit
+                                          : intensity);
+}
+
+static void warn(const struct prepare *job, const char *text)
+{
+    if (job->warn)
+        job->warn(job->user, text);
+}
+
+static void set_coefficients(const struct prepare *job, flat_medium *m,
+                             const struct brume_medium *in)
+{
+    double unit = job->flat->unit, extinction = in->extinction;
+    if (extinction != 1.0 && job->scene->globals.media_multiple) {
+        extinction = 1.0;
+        warn(job, "extinction other than 1 has no meaning in multiple "
+                  "scattering; 1 is used");
+    }
+    m->sigma_a = color_per_unit(in->absorption, unit);
+    m->sigma_s = color_per_unit(in->scattering, unit);
+    m->emission = color_per_unit(in->emission, unit);
+    m->sigma_t = rgb_add(m->sigma_a,
+                         rgb_scale(m->sigma_s, (float)extinction));
+    rgb sum = rgb_add(m->sigma_a, m->sigma_s);
+    m->bound = rgb_make(fmaxf(m->sigma_t.r, sum.r),
+                        fmaxf(m->sigma_t.g, sum.g),
+                        fmaxf(m->sigma_t.b, sum.b));
+    m->phase = (int32_t)in->phase;
+    m->g = (float)in->eccentricity;
+}
+
+static bool add_medium(const struct prepare *job,
+                       const struct brume_medium *in, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    flat_medium m;
+    memset(&m, 0, sizeof m);
+    m.glow = m.amount = m.temperature = -1;
+    set_coefficients(job, &m, in);
+    m.densities = in->densities;
+    for (int i = 0; i < in->densities; i++)
+        m.density[i] = in->density[i];
+    set_fire(job, &m, &in->fire);
+    if (!make_bounds(job, &m, err))
+        return false;
+    for (int i = 0; i < m.densities; i++)
+        add_plane_field(f, &m, m.density[i]);
+    add_plane_field(f, &m, m.temperature);
+    add_plane_field(f, &m, m.amount);
+    flat_medium *slot = FLAT_EXTEND(f, media, 1, err);
+    if (!slot)
+        return false;
+    *slot = m;
+    f->view.scatters |= !rgb_is_black(m.sigma_s);
+    return true;
+}
+
+static bool add_interior(const struct prepare *job,
+                         const struct scene_interior *in,
+                         struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    flat_interior *out = FLAT_EXTEND(f, interiors, 1, err);
+    if (!out)
+        return false;
+    out->first = (int32_t)f->interior_media_count;
+    out->count = in->count;
+    int32_t *media = FLAT_EXTEND(f, interior_media, (size_t)in->count, err);
+    if (!media)
+        return false;
+    for (int i = 0; i < in->count; i++)
+        media[i] = in->media[i];
+    return true;
+}
+
+bool prepare_media(const struct prepare *job, struct brume_error *err)
+{
+    const brume_scene *s = job->scene;
+    for (size_t i = 0; i < s->media_count; i++)
+        if (!add_medium(job, &s->media[i], err))
+            return false;
+    for (size_t i = 0; i < s->interiors_count; i++)
+        if (!add_interior(job, &s->interiors[i], err))
+            return false;
+    job->flat->view.atmosphere = s->atmosphere;
+    flat_view(job->flat);
+    return true;
+}
