@@ -133,11 +133,22 @@ HD vec3 phase_sample(int kind, float g, vec3 d, float u, float v, float *pdf)
     return vec3_normalize(warp_frame_to_world(warp_frame(d), local));
 }
 
-/* POV-Ray's own phase function over 4 pi p. */
+/* POV-Ray's own phase function over 4 pi p: its types 2 to 4 have the shapes
+ * above but do not integrate to 4 pi. Measured with POV-Ray 3.7.0.10 at nine
+ * angles from 0 to 180 degrees, which differ by 2e-5; types 1 and 5 (g from
+ * -0.9 to 0.99) are within 2e-5 of 1. tests/oracle/phase.py */
 HD float phase_pov_scale(int kind)
 {
-    (void)kind;
-    return 1.0f;
+    switch (kind) {
+    case PHASE_MIE_HAZY:
+        return 1.15331f;
+    case PHASE_MIE_MURKY:
+        return 1.24681f;
+    case PHASE_RAYLEIGH:
+        return 1.06584f;
+    default:
+        return 1.0f;
+    }
 }
 
 #endif
