@@ -241,6 +241,9 @@ static bool check_fire(const brume_scene *scene, const struct brume_fire *f,
         !check_not_negative(positive, 2, "the fire's intensity or reference",
                             err))
         return false;
+    if (f->brightness == BRUME_BRIGHTNESS_TOTAL && !(f->reference > 0))
+        return brume_fail(err, BRUME_ERR_SCENE, "the fire's reference is %g "
+                          "K but must be greater than 0", f->reference);
     return f->brightness != BRUME_BRIGHTNESS_PHYSICAL || f->reference >= 500 ||
            brume_fail(err, BRUME_ERR_SCENE,
                       "the fire's reference is %g K but must be at least "

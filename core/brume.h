@@ -174,7 +174,9 @@ enum brume_brightness {
     BRUME_BRIGHTNESS_PHYSICAL,      /* luminance of Planck's law over that at
                                        `reference` kelvin                  */
     BRUME_BRIGHTNESS_NORMALIZED,    /* the largest channel is 1            */
-    BRUME_BRIGHTNESS_CONSTANT       /* luminance 1                         */
+    BRUME_BRIGHTNESS_CONSTANT,      /* luminance 1                         */
+    BRUME_BRIGHTNESS_TOTAL          /* luminance (T / reference)^4, as the
+                                       black body's whole radiance         */
 };
 
 /* Thermal emission; kelvin = scale * temperature + offset. */

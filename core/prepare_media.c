@@ -315,6 +315,8 @@ static void set_fire(const struct prepare *job, flat_medium *m,
     if (fire->brightness == BRUME_BRIGHTNESS_PHYSICAL)
         intensity /= blackbody_luminance(job->flat->blackbody,
                                          (float)fire->reference);
+    if (fire->brightness == BRUME_BRIGHTNESS_TOTAL)
+        intensity /= pow(fire->reference, 4);
     m->fire = 1;
     m->temperature = fire->temperature;
     m->amount = fire->amount;

@@ -84,8 +84,10 @@ void model_material(const struct texture *texture, const transform *by,
 
 /* How other programs read the same grids.
  *
- * Cycles, Principled Volume (Blender 3 and 4): T is the grid times 1000 K; it
- * adds a colour of the black body's, whatever the density is.
+ * Cycles, Principled Volume (Blender 3 and 4, kernel/svm/closure.h): T is the
+ * grid times 1000 K; it adds a colour of luminance 1 times s T^4 with
+ * s = 5.670373e-8 * 1e-6 / pi per length, whatever the density is; s T^4 is 1
+ * at 2728.25 K.
  * pbrt-v4 (GridMedium, NanoVDBMedium): T is the grid in kelvin; it emits
  * sigma_a times a black body scaled to a peak of 1.
  * Houdini, Pyro shader: 1 is 5000 K (Pyro Blackbody VOP); the colour is that
@@ -96,7 +98,7 @@ void model_fire_preset(struct fire *fire, enum fire_preset preset)
         double kelvin, reference;
         int brightness, additive;
     } row[] = {
-        [FIRE_CYCLES] = {1000, 2000, BRUME_BRIGHTNESS_CONSTANT, 1},
+        [FIRE_CYCLES] = {1000, 2728.2525, BRUME_BRIGHTNESS_TOTAL, 1},
         [FIRE_PBRT] = {1, 2000, BRUME_BRIGHTNESS_NORMALIZED, 0},
         [FIRE_HOUDINI] = {5000, 2000, BRUME_BRIGHTNESS_CONSTANT, 1},
     };

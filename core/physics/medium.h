@@ -5,7 +5,8 @@
 #define CORE_PHYSICS_MEDIUM_H
 #include "core/physics/grid.h"
 
-enum { BRIGHTNESS_PHYSICAL, BRIGHTNESS_NORMALIZED, BRIGHTNESS_CONSTANT };
+enum { BRIGHTNESS_PHYSICAL, BRIGHTNESS_NORMALIZED, BRIGHTNESS_CONSTANT,
+       BRIGHTNESS_TOTAL };
 
 /* Product of the medium's density fields. */
 HD float medium_density(const flat_scene *s, const flat_medium *m, vec3 p)
@@ -16,16 +17,27 @@ HD float medium_density(const flat_scene *s, const flat_medium *m, vec3 p)
     return d;
 }
 
+/* What a colour of Planck's law is divided by, so that its size is what the
+ * fire's brightness says. */
+HD float fire_size(const flat_medium *m, rgb c, float kelvin)
+{
+    if (m->brightness == BRIGHTNESS_NORMALIZED)
+        return rgb_max(c);
+    float luminance = rgb_luminance(c);
+    if (m->brightness == BRIGHTNESS_TOTAL)
+        luminance /= kelvin * kelvin * kelvin * kelvin;
+    return luminance;
+}
+
 /* Colour and strength of thermal emission at `kelvin`, as the fire's
  * brightness says. Planck's law in linear Rec.709; `intensity` holds the
- * reference luminance. */
+ * reference. */
 HD rgb fire_color(const flat_scene *s, const flat_medium *m, float kelvin)
 {
     rgb c = blackbody_rgb(s->blackbody, kelvin);
     float scale = m->intensity;
     if (m->brightness != BRIGHTNESS_PHYSICAL) {
-        float size = m->brightness == BRIGHTNESS_CONSTANT ? rgb_luminance(c)
-                                                          : rgb_max(c);
+        float size = fire_size(m, c, kelvin);
         if (!(size > 0.0f))
             return rgb_gray(0.0f);
         scale /= size;

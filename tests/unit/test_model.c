@@ -247,6 +247,21 @@ static void maps_reach_the_densities_that_are_there(void **state)
     assert_true(media.fire.temperature.by.m[1][3] == 2);
 }
 
+/* Cycles emits 5.670373e-8 * 1e-6 / pi * T^4 in luminance. */
+static void the_cycles_preset_has_its_brightness(void **state)
+{
+    struct fire fire;
+    (void)state;
+
+    memset(&fire, 0, sizeof fire);
+    model_fire_preset(&fire, FIRE_CYCLES);
+    assert_int_equal(fire.brightness, BRUME_BRIGHTNESS_TOTAL);
+    double ours = fire.intensity * pow(1500 / fire.reference, 4);
+    double theirs = 5.670373e-14 / 3.14159265358979 * pow(1500, 4);
+    assert_true(fabs(ours / theirs - 1) < 1e-6);
+    assert_true(fire.kelvin[0] == 1000 && fire.additive == 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -256,6 +271,7 @@ int main(void)
         cmocka_unit_test(textures_without_filter_and_transmit_are_opaque),
         cmocka_unit_test(maps_follow_the_pigment),
         cmocka_unit_test(maps_reach_the_densities_that_are_there),
+        cmocka_unit_test(the_cycles_preset_has_its_brightness),
     };
 
     return cmocka_run_group_tests_name("model", tests, NULL, NULL);

@@ -155,6 +155,32 @@ static void truths__emitting_absorber(void **state)
     }
 }
 
+/* A fire of brightness `total` without absorption: its luminance per length
+ * is (T / reference)^4. */
+static void truths__fire_of_total_brightness(void **state)
+{
+    (void)state;
+    const double kelvins[] = {1000.0, 2000.0, 6000.0};
+    for (size_t i = 0; i < sizeof kelvins / sizeof *kelvins; i++) {
+        brume_scene *s = truth_scene(&single, 2.0, 1e-6);
+        struct brume_field t = BRUME_FIELD_INIT;
+        t.scale = 1.0;
+        struct brume_medium m = truth_medium(0.0, 0.0, 0.0);
+        m.fire.on = m.fire.additive = true;
+        m.fire.temperature = brume_add_field(s, &t, truth_error());
+        m.fire.kelvin_scale = kelvins[i];
+        m.fire.reference = 3000.0;
+        m.fire.brightness = BRUME_BRIGHTNESS_TOTAL;
+        truth_fill(s, truth_box(10.0, 0.0, 1.0), &m);
+        struct estimate e = truth_render(s, 2, 2);
+        double got = 0.2126390 * e.mean[0] + 0.7151687 * e.mean[1] +
+                     0.0721923 * e.mean[2];
+        double truth = pow(kelvins[i] / 3000.0, 4.0);
+        if (!(fabs(got / truth - 1.0) < 1e-5))
+            fail_msg("%g K: luminance %g, truth %g", kelvins[i], got, truth);
+    }
+}
+
 /* ---- T2: furnaces ------------------------------------------------------- */
 
 /* A grid of blocks with hard edges and colour: rough on majorants. */
@@ -299,6 +325,7 @@ int main(void)
         cmocka_unit_test(truths__beer_lambert_ends),
         cmocka_unit_test(truths__beer_lambert_trilinear),
         cmocka_unit_test(truths__emitting_absorber),
+        cmocka_unit_test(truths__fire_of_total_brightness),
         cmocka_unit_test(truths__furnace_thin),
         cmocka_unit_test(truths__furnace_thick_forward),
         cmocka_unit_test(truths__furnace_with_surface),
