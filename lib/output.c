@@ -107,6 +107,11 @@ FILE *output_stream(struct output *o)
     return o->stream;
 }
 
+const char *output_name(const struct output *o)
+{
+    return o->temporary ? o->temporary : o->target;
+}
+
 /* Pipes and devices can't be synced, which is no failure of the writing. */
 static bool flush_to_disk(FILE *stream)
 {

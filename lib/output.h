@@ -10,6 +10,10 @@
 #include <stdio.h>
 #include "lib/error.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct output;
 
 /* NULL with err set when the file can't be made there. A link is followed;
@@ -18,6 +22,10 @@ struct output *output_open(const char *path, struct brume_error *err);
 
 /* The stream to write to; the caller does not close it. */
 FILE *output_stream(struct output *o);
+
+/* The name of the file that is being written, for a library that insists on
+ * opening it itself. */
+const char *output_name(const struct output *o);
 
 /* Ends the file and frees `o`. False with err set when any write failed: the
  * target is then as it was before. */
@@ -32,4 +40,8 @@ bool output_close(struct output *o, bool ok, struct brume_error *err);
 /* A whole file from memory: statistics, JSON, tables. */
 bool output_write(const char *path, const void *bytes, size_t size,
                   struct brume_error *err);
+
+#ifdef __cplusplus
+}
+#endif
 #endif
