@@ -51,7 +51,8 @@ programs = $(patsubst %.c,$(B)/%,$(wildcard $1/*.c))
 LIB      := $(call objects,$(wildcard lib/*.c lib/*.cc))
 CORE     := $(call objects,$(wildcard core/*.c core/cpu/*.c))
 CUDA_SRC := $(if $(filter 1,$(CUDA)),$(wildcard core/cuda/*.cu))
-PARSER   := $(call objects,$(wildcard parser/*.c))
+GENERATED := $(B)/parser/lexer.o $(B)/parser/grammar.o
+PARSER   := $(call objects,$(wildcard parser/*.c)) $(GENERATED)
 # What tests link of the front end: all but the program.
 FRONT    := $(filter-out $(B)/parser/main.o,$(PARSER))
 UNITS    := $(call programs,tests/unit)
@@ -77,6 +78,19 @@ $(B)/libbrume.a: $(CORE) $(LIB)
 
 $(B)/%.o: %.c
 	$(call run,cc,$(C) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<)
+
+# The scanner and the grammar of the scene language.
+$(B)/parser/lexer.c: parser/lexer.l
+	$(call run,flex,flex -o $@ $<)
+
+$(B)/parser/grammar.c $(B)/parser/grammar.h &: parser/grammar.y
+	$(call run,bison,bison -Wall -Werror -o $(B)/parser/grammar.c \
+	    --header=$(B)/parser/grammar.h $<)
+
+$(GENERATED): %.o: %.c
+	$(call run,cc,$(C) -Wno-unused-function $(CPPFLAGS) $(CFLAGS) \
+	    -MMD -MP -c -o $@ $<)
+$(PARSER) $(UNITS:=.o): | $(B)/parser/grammar.h
 
 $(B)/%.o: %.cc
 	$(call run,c++,$(CPP) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<)

@@ -40,6 +40,7 @@ static struct arena_chunk *take_chunk(struct arena *arena, size_t size)
         bytes = HEAD + size;
     }
     if (bytes > left) {
+        arena->limited = true;
         return NULL;
     }
     struct arena_chunk *chunk = calloc(1, bytes);

@@ -13,6 +13,7 @@ struct arena {
     char *at, *end;                 /* free space of the newest chunk      */
     size_t held;                    /* bytes taken from the system         */
     size_t limit;                   /* bound of `held`, 0: none            */
+    bool limited;                   /* the limit refused an allocation     */
 };
 
 void arena_init(struct arena *arena, size_t limit);

@@ -30,7 +30,7 @@ struct parse_ambient {
     double initial_frame, final_frame;
     int image_width, image_height;
 };
-#define PARSE_AMBIENT_INIT {0, 1, false, 0, 0, 1, 1, 1, 160, 120}
+#define PARSE_AMBIENT_INIT {0, 0, false, 0, 0, 0, 0, 0, 160, 120}
 
 /* 0 stands for the default of each. Reaching one is BRUME_ERR_LIMIT. */
 struct parse_limits {

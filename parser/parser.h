@@ -15,6 +15,7 @@
 
 struct source;
 struct expander;
+struct macro;
 struct builder;
 
 struct parser {
@@ -26,7 +27,14 @@ struct parser {
     struct symbols symbols;
     struct source **source;         /* texts, by location.source           */
     size_t sources, source_room;
+    size_t source_bytes;            /* held by texts and their tokens      */
     struct expander *expander;
+    struct value *stack;            /* numbers and strings of lists that the
+                                       grammar has not closed yet          */
+    size_t stacked, stack_room;
+    uint32_t *random;               /* state of each stream of seed()      */
+    size_t randoms, random_room;
+    double version;                 /* of #version                         */
     struct builder *builder;
     bool failed;                    /* an error was reported: stop         */
 };
@@ -58,5 +66,8 @@ enum parser_purpose { PARSER_TEXT, PARSER_DATA };
 const char *parser_find_file(struct parser *parser, struct location at,
                              struct string name,
                              enum parser_purpose purpose);
+/* Whether a text of that name would be found; nothing is reported. */
+bool parser_file_exists(struct parser *parser, struct location at,
+                        struct string name);
 
 #endif

@@ -25,10 +25,11 @@ struct symbol {
     struct symbol *outer;           /* the declaration that this one hides */
     struct symbol *next;            /* in its scope                        */
     uint32_t level;                 /* of its scope; 0 is global           */
-    /* A macro parameter that was given an identifier stands for it: */
-    struct value *refers;           /* the value meant; NULL: `value`      */
+    bool constant;                  /* predeclared: cannot be declared     */
+    bool removed;                   /* by #undef                           */
+    struct value *refers;           /* of a macro's parameter that was given
+                                       an identifier: its value; or NULL   */
     struct value value;
-    struct location declared;
 };
 
 struct symbols {
@@ -36,31 +37,32 @@ struct symbols {
     struct name **bucket;
     size_t buckets, names;
     struct symbol *spare;
-    struct symbol **scope;          /* by level: the newest symbol of each */
+    void *scope;                    /* newest symbol of each level         */
     size_t scope_room;
     uint32_t level;
 };
 
+/* False: no memory. */
 bool symbols_init(struct symbols *symbols, struct arena *arena);
 
 /* The one `struct name` of a word; NULL: no memory. */
 struct name *symbols_name(struct symbols *symbols, const char *text,
                           size_t length);
 
+/* Scopes of macros and included files. False: no memory. */
 bool symbols_enter(struct symbols *symbols);
 void symbols_leave(struct symbols *symbols);
 
-/* The value a name stands for, or NULL if it is not declared. */
+/* The value a name stands for, to read or to set; NULL: not declared. */
 struct value *symbols_find(const struct name *name);
+struct value *symbol_value(struct symbol *symbol);
 
-/* #declare: sets the most local declaration, or makes a global one. #local:
- * sets or makes one of the current scope. NULL: no memory. */
-struct symbol *symbols_declare(struct symbols *symbols, struct name *name,
-                               struct location at);
-struct symbol *symbols_local(struct symbols *symbols, struct name *name,
-                             struct location at);
+/* #declare: the most local declaration, or else a new global one. #local: the
+ * one of the current scope, old or new. NULL: no memory. */
+struct symbol *symbols_declare(struct symbols *symbols, struct name *name);
+struct symbol *symbols_local(struct symbols *symbols, struct name *name);
 /* #undef: removes the most local declaration, if any. */
-void symbols_undefine(struct symbols *symbols, struct name *name);
+void symbols_undefine(struct name *name);
 
 /* The declared name or keyword most like `name`, for "did you mean"; NULL if
  * none is close. */

@@ -3,7 +3,6 @@
 #define PARSER_TOKEN_H
 #include <stdbool.h>
 #include <stdint.h>
-#include "parser/value.h"
 
 /* A place in a text, kept small since every token carries one; lines and
  * columns are counted only when a diagnostic needs them. */
@@ -13,6 +12,15 @@ struct location {
 };
 
 struct name;
+struct string;
+
+/* Where a directive stands among those of its block; all are indices of
+ * tokens of the same text, 0: there is none. */
+struct block_link {
+    uint32_t next;          /* the block's next directive: #else ... #end  */
+    uint32_t pair;          /* of one that opens a block, its #end; of the
+                               others, the one that opened it              */
+};
 
 /* `kind` is an enum scene_yytokentype of the grammar. */
 struct token {
@@ -22,9 +30,9 @@ struct token {
     union {
         double number;                  /* TOK_NUMBER                      */
         const struct string *string;    /* TOK_STRING                      */
-        struct name *name;              /* TOK_IDENTIFIER and keywords     */
+        struct name *name;              /* words, TOK_DOT, TOK_UNSUPPORTED */
         const char *error;              /* TOK_BAD: what is wrong with it  */
-        uint64_t match;                 /* of a directive: see directive.c */
+        struct block_link block;        /* directives of blocks            */
     };
 };
 
@@ -34,14 +42,24 @@ enum keyword_flags {
                                room for it and the name is not declared    */
 };
 
-/* Rows are sorted by `word`. A word of POV-Ray that has no rule yet has the
- * kind TOK_UNSUPPORTED. */
+/* A word of the language. One of POV-Ray's that has no rule yet has the kind
+ * TOK_UNSUPPORTED. */
 struct keyword {
     const char *word;
     uint16_t kind;
     uint16_t flags;
 };
+
+/* Both tables are sorted by `word`, by strcmp. */
 extern const struct keyword keyword_table[];
 extern const int keyword_count;
+/* The words after '#'. */
+extern const struct keyword directive_table[];
+extern const int directive_count;
+
+static inline struct location token_location(const struct token *token)
+{
+    return (struct location){token->offset, token->source};
+}
 
 #endif

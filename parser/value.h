@@ -50,6 +50,7 @@ struct array {
     uint32_t size[VALUE_RANK];
     uint32_t count;                 /* product of the sizes                */
     struct value *item;             /* last index fastest                  */
+    bool list;                      /* a `{ ... }` that an array is made from */
 };
 
 /* What a number of so many terms, or another kind, is called in messages:
@@ -82,7 +83,8 @@ bool value_combine(enum value_operator op, const struct value *a,
                    const struct value *b, struct value *out);
 struct value value_negate(struct value a);
 struct value value_not(struct value a);
-/* Orders strings by bytes: <0, 0, >0. */
+/* Orders strings by characters: <0, 0, >0, the difference of the first two
+ * that differ. */
 int value_compare_strings(struct string a, struct string b);
 
 #endif

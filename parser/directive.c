@@ -1,0 +1,219 @@
+/* directive.c - the directives that stand alone. */
+#include "parser/expand.h"
+#include "parser/report.h"
+#include <string.h>
+
+/* POV-Ray 3.5 and later insist on the semicolon. */
+static const double STRICT_VERSION = 3.5;
+
+/* ---- #declare, #local, #undef ------------------------------------------ */
+
+static bool may_declare(struct expander *expander, const struct name *name,
+                        struct location at)
+{
+    return !name->symbol || !name->symbol->constant
+        || parser_error(expander->parser, at, "'%s' is built in and cannot "
+                        "be declared", name->text);
+}
+
+static bool begin_value(struct expander *expander, struct name *name,
+                        struct value *item, bool local, struct location at)
+{
+    if (!expand_need(expander, '=')) {
+        return false;
+    }
+    struct pending *pending = expand_begin(expander, TOK_MODE_VALUE,
+                                           USE_DECLARE, at);
+    if (!pending) {
+        return false;
+    }
+    pending->target.name = name;
+    pending->target.item = item;
+    pending->target.local = local;
+    return true;
+}
+
+static bool declare(struct expander *expander, const struct token *token)
+{
+    struct location at = token_location(expand_peek(expander));
+    struct name *name = expand_need_name(expander);
+    if (!name || !may_declare(expander, name, at)) {
+        return false;
+    }
+    if (expand_peek(expander)->kind != '[') {
+        return begin_value(expander, name, NULL,
+                           token->kind == TOK_HASH_LOCAL, at);
+    }
+    struct value *array = symbols_find(name);
+    if (!array || array->kind != VALUE_ARRAY) {
+        return parser_error(expander->parser, at, "'%.40s' is not an array",
+                            name->text);
+    }
+    struct seek seek = {.item = array, .use = ITEM_DECLARE};
+    return item_seek(expander, &seek, at);
+}
+
+bool directive_declare_item(struct expander *expander, struct value *item,
+                            struct location at)
+{
+    return begin_value(expander, NULL, item, false, at);
+}
+
+static bool check_semicolon(struct expander *expander,
+                            const struct value *value)
+{
+    struct parser *parser = expander->parser;
+    if (expand_take(expander, ';') || value->kind != VALUE_NUMBER) {
+        return true;
+    }
+    if (parser->version < STRICT_VERSION) {
+        parser_warn(parser, expander->place, "no ';' after this value");
+        return true;
+    }
+    return parser_fail(parser, BRUME_ERR_SCENE, expander->place,
+                       "floats, vectors and colors are declared with ';' "
+                       "behind them", "expected ';' after this value");
+}
+
+static bool finish_declare(struct expander *expander,
+                           const struct pending *pending)
+{
+    struct symbols *symbols = &expander->parser->symbols;
+    struct value *item = pending->target.item;
+    if (!item) {
+        struct symbol *symbol = pending->target.local
+            ? symbols_local(symbols, pending->target.name)
+            : symbols_declare(symbols, pending->target.name);
+        if (!symbol) {
+            return report_no_memory(expander->parser);
+        }
+        item = symbol_value(symbol);
+    }
+    *item = expander->result;
+    return check_semicolon(expander, item);
+}
+
+static bool undefine(struct expander *expander)
+{
+    struct location at = token_location(expand_peek(expander));
+    struct name *name = expand_need_name(expander);
+    if (!name || !may_declare(expander, name, at)) {
+        return false;
+    }
+    if (!name->symbol) {
+        parser_warn(expander->parser, at, "'%.40s' is not declared",
+                    name->text);
+    }
+    symbols_undefine(name);
+    expand_take(expander, ';');
+    return true;
+}
+
+/* ---- #include, #version ------------------------------------------------ */
+
+static bool include(struct expander *expander, const struct pending *pending)
+{
+    struct parser *parser = expander->parser;
+    int most = parser->limits.include_depth;
+    if (expander->texts > (size_t)most) {
+        return parser_fail(parser, BRUME_ERR_LIMIT, pending->at, NULL,
+                           "files are included deeper than %d", most);
+    }
+    struct frame frame = {.called = pending->at};
+    frame.source = source_open(parser, expander->place,
+                               expander->result.string);
+    return frame.source
+        && (symbols_enter(&parser->symbols) || report_no_memory(parser))
+        && expand_enter(expander, &frame);
+}
+
+static bool set_version(struct expander *expander)
+{
+    struct parser *parser = expander->parser;
+    const struct value *value = &expander->result;
+    struct symbol *symbol = symbols_name(&parser->symbols, "version", 7)
+        ->symbol;
+    if (value->kind != VALUE_NUMBER || value->terms != 1) {
+        return parser_error(parser, expander->place,
+                            "expected a float, found a %s",
+                            value_name(value));
+    }
+    parser->version = value->v[0];
+    symbol->value = *value;
+    expand_take(expander, ';');
+    return true;
+}
+
+/* ---- messages ---------------------------------------------------------- */
+
+static bool message(struct expander *expander, const struct pending *pending)
+{
+    static const enum parse_stream stream[] = {
+        [USE_DEBUG] = PARSE_DEBUG, [USE_WARNING] = PARSE_WARNING,
+        [USE_ERROR] = PARSE_ERROR
+    };
+    struct parser *parser = expander->parser;
+    const struct parse_input *in = parser->in;
+    struct string text = expander->result.string;
+    if (in->message) {
+        in->message(in->user, stream[pending->use], text.text);
+    }
+    while (text.length > 0 && strchr(" \r\n", text.text[text.length - 1])) {
+        text.length--;
+    }
+    if (pending->use == USE_WARNING) {
+        parser_warn(parser, pending->at, "%.*s", (int)text.length, text.text);
+    }
+    return pending->use != USE_ERROR
+        || parser_error(parser, pending->at, "%.*s", (int)text.length,
+                        text.text);
+}
+
+/* ---- which is which ---------------------------------------------------- */
+
+bool directive_run(struct expander *expander, const struct token *token)
+{
+    struct location at = token_location(token);
+    switch (token->kind) {
+    case TOK_HASH_DECLARE:
+    case TOK_HASH_LOCAL:
+        return declare(expander, token);
+    case TOK_HASH_UNDEF:
+        return undefine(expander);
+    case TOK_HASH_MACRO:
+        return macro_define(expander);
+    case TOK_HASH_INCLUDE:
+        return expand_begin(expander, TOK_MODE_STRING, USE_INCLUDE, at);
+    case TOK_HASH_DEBUG:
+        return expand_begin(expander, TOK_MODE_STRING, USE_DEBUG, at);
+    case TOK_HASH_WARNING:
+        return expand_begin(expander, TOK_MODE_STRING, USE_WARNING, at);
+    case TOK_HASH_ERROR:
+        return expand_begin(expander, TOK_MODE_STRING, USE_ERROR, at);
+    case TOK_HASH_VERSION:
+        return expand_begin(expander, TOK_MODE_VALUE, USE_VERSION, at);
+    case TOK_HASH_DEFAULT:
+        return expand_begin(expander, TOK_MODE_DEFAULT, USE_DEFAULT, at);
+    default:
+        return branch_run(expander, token);
+    }
+}
+
+bool directive_finish(struct expander *expander,
+                      const struct pending *pending)
+{
+    switch (pending->use) {
+    case USE_DECLARE:
+        return finish_declare(expander, pending);
+    case USE_VERSION:
+        return set_version(expander);
+    case USE_INCLUDE:
+        return include(expander, pending);
+    case USE_DEBUG:
+    case USE_WARNING:
+    case USE_ERROR:
+        return message(expander, pending);
+    default:
+        return true;
+    }
+}

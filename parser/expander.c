@@ -1,0 +1,507 @@
+#include "parser/expand.h"
+#include "lib/timer.h"
+#include "parser/report.h"
+#include <string.h>
+
+/* Values in values; each holds a parser of its own. */
+enum { PENDING_DEPTH = 20000 };
+
+/* ---- stacks ------------------------------------------------------------ */
+
+void *expand_grow(struct expander *expander, void *items, size_t *room,
+                  size_t need, size_t size)
+{
+    struct parser *parser = expander->parser;
+    if (!arena_grow(&parser->arena, &items, room, need, size)) {
+        report_no_memory(parser);
+        return NULL;
+    }
+    return items;
+}
+
+static struct pending *innermost(const struct expander *expander)
+{
+    return &expander->pending[expander->pendings - 1];
+}
+
+bool expand_enter(struct expander *expander, const struct frame *frame)
+{
+    struct frame *grown = expand_grow(expander, expander->frame,
+                                      &expander->frame_room,
+                                      expander->frames + 1, sizeof *grown);
+    if (!grown) {
+        return false;
+    }
+    expander->frame = grown;
+    grown[expander->frames] = *frame;
+    grown[expander->frames].loops = expander->loops;
+    expander->frames++;
+    expander->texts += !frame->macro;
+    return true;
+}
+
+/* At the end of a text that was included. */
+static void leave_text(struct expander *expander)
+{
+    expander->loops = expand_frame(expander)->loops;
+    expander->frames--;
+    expander->texts--;
+    symbols_leave(&expander->parser->symbols);
+}
+
+bool expand_return(struct expander *expander, size_t frames,
+                   struct location at)
+{
+    while (expander->frames > frames) {
+        int kind = expand_peek(expander)->kind;
+        if (kind == TOK_HASH_END && expand_frame(expander)->macro) {
+            macro_leave(expander);
+        } else if (kind == TOK_END) {
+            leave_text(expander);
+        } else {
+            return parser_error(expander->parser, at, "the directive's value "
+                                "must end in the text where it begins");
+        }
+    }
+    return true;
+}
+
+static struct scene_yypstate *take_parser(struct expander *expander)
+{
+    if (expander->spares > 0) {
+        return expander->spare[--expander->spares];
+    }
+    struct scene_yypstate *state = scene_yypstate_new();
+    if (!state) {
+        parser_fail(expander->parser, BRUME_ERR_MEMORY, expander->place,
+                    NULL, "out of memory");
+    }
+    return state;
+}
+
+/* Keeps a parser for the next value; a finished one begins anew. */
+static void give_parser(struct expander *expander,
+                        struct scene_yypstate *state)
+{
+    struct scene_yypstate **grown = expand_grow(
+        expander, expander->spare, &expander->spare_room,
+        expander->spares + 1, sizeof *grown);
+    if (!grown) {
+        scene_yypstate_delete(state);
+        return;
+    }
+    expander->spare = grown;
+    grown[expander->spares++] = state;
+}
+
+struct pending *expand_begin(struct expander *expander, int mode,
+                             enum use use, struct location at)
+{
+    struct parser *parser = expander->parser;
+    if (expander->pendings >= PENDING_DEPTH) {
+        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "values are nested "
+                    "deeper than %d", PENDING_DEPTH);
+        return NULL;
+    }
+    struct pending *grown = expand_grow(expander, expander->pending,
+                                        &expander->pending_room,
+                                        expander->pendings + 1,
+                                        sizeof *grown);
+    struct scene_yypstate *state = grown ? take_parser(expander) : NULL;
+    if (!state) {
+        return NULL;
+    }
+    expander->pending = grown;
+    struct pending *pending = &grown[expander->pendings++];
+    *pending = (struct pending){
+        .use = use, .state = state, .at = at, .frames = expander->frames,
+        .start = expand_frame(expander)->next,
+        .open_ended = mode == TOK_MODE_VALUE
+    };
+    SCENE_YYSTYPE none = {.count = 0};
+    scene_yypush_parse(state, mode, &none, &at, parser);
+    return pending;
+}
+
+/* ---- pushing ----------------------------------------------------------- */
+
+void expander_result(struct parser *parser, const struct value *value)
+{
+    parser->expander->result = *value;
+}
+
+void expander_count(struct parser *parser, int count)
+{
+    parser->expander->count = count;
+}
+
+/* A value is complete: back to what it was for. */
+static bool finish(struct expander *expander)
+{
+    struct pending done = *innermost(expander);
+    expander->pendings--;
+    give_parser(expander, done.state);
+    switch (done.use) {
+    case USE_NONE:
+        return true;
+    case USE_INDEX:
+        return item_finish(expander, &done);
+    case USE_ARGUMENT:
+        return macro_argument(expander, &expander->result, NULL);
+    case USE_IF: case USE_ELSEIF: case USE_WHILE: case USE_SWITCH:
+    case USE_CASE: case USE_RANGE: case USE_FOR:
+        return branch_finish(expander, &done);
+    default:
+        return directive_finish(expander, &done);
+    }
+}
+
+static bool within_limits(struct expander *expander, struct location at)
+{
+    enum { CHECK = 4096 };
+    struct parser *parser = expander->parser;
+    if (++expander->tokens % CHECK != 0) {
+        return true;
+    }
+    if (expander->tokens > parser->limits.tokens) {
+        return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "the scene has "
+                           "more than %llu tokens", (unsigned long long)
+                           parser->limits.tokens);
+    }
+    if (expander->deadline > 0 && timer_seconds() > expander->deadline) {
+        return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "reading the "
+                           "scene takes longer than %g s",
+                           parser->limits.seconds);
+    }
+    return true;
+}
+
+static void count_brackets(struct pending *pending, int kind)
+{
+    if (kind == '(' || kind == '{' || kind == '[') {
+        pending->depth++;
+    } else if (kind == ')' || kind == '}' || kind == ']') {
+        pending->depth -= pending->depth > 0;
+    }
+}
+
+/* Pushes a token into the innermost parser, and finishes that if it was the
+ * last one. */
+static bool push(struct expander *expander, int kind,
+                 const SCENE_YYSTYPE *meaning, struct location at)
+{
+    enum { ACCEPTED = 0 };
+    struct parser *parser = expander->parser;
+    struct pending *pending = innermost(expander);
+    if (!within_limits(expander, at)) {
+        return false;
+    }
+    if (kind != TOK_END) {
+        expander->place = at;
+    }
+    count_brackets(pending, kind);
+    int status = scene_yypush_parse(pending->state, kind, meaning, &at,
+                                    parser);
+    if (parser->failed || status == YYPUSH_MORE) {
+        return !parser->failed;
+    }
+    return status == ACCEPTED ? finish(expander)
+        : parser_error(parser, at, "syntax error");
+}
+
+static bool push_end(struct expander *expander)
+{
+    SCENE_YYSTYPE none = {.count = 0};
+    struct location at = token_location(expand_peek(expander));
+    return push(expander, TOK_END, &none, at);
+}
+
+void expand_hold(struct expander *expander, const struct value *value,
+                 struct location at)
+{
+    expander->held = true;
+    expander->hold_value = *value;
+    expander->hold_at = at;
+}
+
+/* ---- names ------------------------------------------------------------- */
+
+/* The token of a value. */
+static int kind_of(const struct value *value)
+{
+    static const uint16_t kinds[VALUE_KINDS] = {
+        [VALUE_NONE] = TOK_IDENTIFIER, [VALUE_STRING] = TOK_STRING_ID,
+        [VALUE_ARRAY] = TOK_ARRAY_ID, [VALUE_MACRO] = TOK_MACRO_ID,
+        [VALUE_OBJECT] = TOK_OBJECT_ID, [VALUE_TEXTURE] = TOK_TEXTURE_ID,
+        [VALUE_PIGMENT] = TOK_PIGMENT_ID, [VALUE_NORMAL] = TOK_NORMAL_ID,
+        [VALUE_FINISH] = TOK_FINISH_ID, [VALUE_COLOR_MAP] = TOK_MAP_ID,
+        [VALUE_MATERIAL] = TOK_MATERIAL_ID,
+        [VALUE_INTERIOR] = TOK_INTERIOR_ID, [VALUE_MEDIA] = TOK_MEDIA_ID,
+        [VALUE_DENSITY] = TOK_DENSITY_ID,
+        [VALUE_TRANSFORM] = TOK_TRANSFORM_ID,
+        [VALUE_CAMERA] = TOK_CAMERA_ID, [VALUE_LIGHT] = TOK_LIGHT_ID
+    };
+    if (value->kind == VALUE_NUMBER) {
+        return value->terms == 1 ? TOK_FLOAT_ID
+            : value->terms == VALUE_TERMS ? TOK_COLOR_ID : TOK_VECTOR_ID;
+    }
+    return kinds[value->kind];
+}
+
+static bool push_value(struct expander *expander, const struct value *value,
+                       struct location at)
+{
+    SCENE_YYSTYPE meaning = {.value = *value};
+    return push(expander, kind_of(value), &meaning, at);
+}
+
+static bool push_word(struct expander *expander, int kind,
+                      const struct token *token)
+{
+    SCENE_YYSTYPE meaning = {.name = token->name};
+    return push(expander, kind, &meaning, token_location(token));
+}
+
+/* A name: what it stands for, or one of Brume's own words. */
+static bool run_name(struct expander *expander, const struct token *token)
+{
+    struct value *value = symbols_find(token->name);
+    struct location at = token_location(token);
+    if (!value && !token->name->keyword) {
+        report_undeclared(expander->parser, at, token->name);
+        return false;
+    }
+    expand_frame(expander)->next++;
+    if (!value) {
+        return push_word(expander, token->name->keyword->kind, token);
+    }
+    if (value->kind == VALUE_MACRO) {
+        return macro_call(expander, value->macro, at);
+    }
+    if (value->kind == VALUE_ARRAY && expand_peek(expander)->kind == '[') {
+        return item_seek(expander, &(struct seek){.item = value}, at);
+    }
+    return push_value(expander, value, at);
+}
+
+bool expand_take(struct expander *expander, int kind)
+{
+    if (expander->held || expand_peek(expander)->kind != kind) {
+        return false;
+    }
+    expand_frame(expander)->next++;
+    return true;
+}
+
+/* Reports the next token, where something else must stand. */
+static bool unexpected(struct expander *expander, const char *wanted)
+{
+    const struct token *token = expand_peek(expander);
+    if (token->kind == TOK_BAD) {
+        report_bad(expander->parser, token);
+    } else {
+        report_wanted(expander->parser, token_location(token), wanted,
+                      token->kind);
+    }
+    return false;
+}
+
+bool expand_need(struct expander *expander, int kind)
+{
+    return expand_take(expander, kind)
+        || unexpected(expander, grammar_token_name(kind));
+}
+
+struct name *expand_need_name(struct expander *expander)
+{
+    struct token *token = expand_peek(expander);
+    if (!expand_take(expander, TOK_IDENTIFIER)) {
+        unexpected(expander, "a name");
+        return NULL;
+    }
+    return token->name;
+}
+
+/* ---- where a value ends ------------------------------------------------ */
+
+static bool accepts(const struct pending *pending, int kind)
+{
+    return grammar_accepts(pending->state, kind);
+}
+
+/* Whether an operator could go on with the value: it is a number. */
+static bool goes_on(const struct pending *pending)
+{
+    return accepts(pending, '+');
+}
+
+/* A directive ends a value that is complete, unless it belongs to it: a block
+ * that a number holds, as in `3 #if (A) + 1 #end`. */
+static bool directive_ends(const struct expander *expander,
+                           const struct pending *pending,
+                           const struct token *token)
+{
+    if (block_opens(token->kind) && token->kind != TOK_HASH_MACRO) {
+        return !goes_on(pending);
+    }
+    switch (token->kind) {
+    case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
+    case TOK_HASH_CASE: case TOK_HASH_RANGE: case TOK_HASH_BREAK:
+        return expander->frames == pending->frames
+            && token->block.pair < pending->start;
+    default:
+        return true;
+    }
+}
+
+static bool name_fits(const struct pending *pending,
+                      const struct token *token)
+{
+    const struct value *value = symbols_find(token->name);
+    if (value && value->kind == VALUE_MACRO) {
+        return goes_on(pending);
+    }
+    return value ? accepts(pending, kind_of(value))
+        : token->name->keyword
+        && accepts(pending, token->name->keyword->kind);
+}
+
+/* Whether the value is complete and the next token no part of it. */
+static bool value_ends(const struct expander *expander,
+                       const struct pending *pending)
+{
+    const struct token *token = expand_peek(expander);
+    int kind = token->kind;
+    bool directive = kind >= TOK_HASH_IF && kind <= TOK_HASH_ERROR;
+    if (expander->held) {
+        return !accepts(pending, kind_of(&expander->hold_value))
+            && accepts(pending, TOK_END);
+    }
+    if (kind == TOK_BAD || kind == TOK_UNSUPPORTED) {
+        return false;
+    }
+    if (kind == TOK_END && expander->frames > pending->frames) {
+        return false;
+    }
+    if (!directive && (kind == TOK_IDENTIFIER ? name_fits(pending, token)
+                       : kind != TOK_END && accepts(pending, kind))) {
+        return false;
+    }
+    return accepts(pending, TOK_END)
+        && (!directive || directive_ends(expander, pending, token));
+}
+
+/* ---- the loop ---------------------------------------------------------- */
+
+static bool run_held(struct expander *expander)
+{
+    struct value value = expander->hold_value;
+    expander->held = false;
+    return push_value(expander, &value, expander->hold_at);
+}
+
+static bool run_end(struct expander *expander)
+{
+    if (expander->frames == 1) {
+        return push_end(expander);
+    }
+    leave_text(expander);
+    return true;
+}
+
+static bool run_token(struct expander *expander)
+{
+    struct token *token = expand_peek(expander);
+    struct value value;
+    switch (token->kind) {
+    case TOK_END:
+        return run_end(expander);
+    case TOK_IDENTIFIER:
+        return run_name(expander, token);
+    case TOK_BAD:
+    case TOK_UNSUPPORTED:
+        report_bad(expander->parser, token);
+        return false;
+    }
+    expand_frame(expander)->next++;
+    switch (token->kind) {
+    case TOK_NUMBER:
+        value = value_float(token->number);
+        break;
+    case TOK_STRING:
+        value = value_string(token->string->text, token->string->length);
+        break;
+    case TOK_DEFINED:
+        return item_defined(expander, ITEM_DEFINED, 0,
+                            token_location(token));
+    default:
+        return token->kind >= TOK_HASH_IF && token->kind <= TOK_HASH_ERROR
+            ? directive_run(expander, token)
+            : push_word(expander, token->kind, token);
+    }
+    SCENE_YYSTYPE meaning = {.value = value};
+    return push(expander, token->kind, &meaning, token_location(token));
+}
+
+static bool step(struct expander *expander)
+{
+    const struct pending *pending = innermost(expander);
+    if (pending->open_ended && pending->depth == 0
+        && value_ends(expander, pending)) {
+        return push_end(expander);
+    }
+    return expander->held ? run_held(expander) : run_token(expander);
+}
+
+static void release(struct expander *expander)
+{
+    while (expander->pendings > 0) {
+        scene_yypstate_delete(
+            expander->pending[--expander->pendings].state);
+    }
+    while (expander->spares > 0) {
+        scene_yypstate_delete(expander->spare[--expander->spares]);
+    }
+}
+
+bool expander_run(struct parser *parser)
+{
+    struct expander expander = {.parser = parser};
+    double seconds = parser->limits.seconds;
+    expander.deadline = seconds > 0 ? timer_seconds() + seconds : 0;
+    parser->expander = &expander;
+    struct frame frame = {.source = source_open_scene(parser)};
+    bool going = frame.source && expand_enter(&expander, &frame)
+        && expand_begin(&expander, TOK_MODE_SCENE, USE_NONE,
+                        (struct location){0});
+    while (going && expander.pendings > 0) {
+        going = step(&expander);
+    }
+    release(&expander);
+    parser->expander = NULL;
+    return going && !parser->failed;
+}
+
+/* ---- for diagnostics --------------------------------------------------- */
+
+struct location expander_place(const struct parser *parser)
+{
+    return parser->expander ? parser->expander->place
+        : (struct location){0, UINT32_MAX};
+}
+
+int expander_depth(const struct parser *parser)
+{
+    const struct expander *expander = parser->expander;
+    return expander && expander->frames ? (int)expander->frames - 1 : 0;
+}
+
+void expander_call(const struct parser *parser, int depth,
+                   struct expander_call *call)
+{
+    const struct expander *expander = parser->expander;
+    const struct frame *frame
+        = &expander->frame[expander->frames - 1 - (size_t)depth];
+    call->at = frame->called;
+    call->macro = frame->macro ? frame->macro->name->text : NULL;
+}

@@ -1,0 +1,124 @@
+/* item.c - items of arrays, and whether something is declared.
+ *
+ * The kind of an item is known only once its indices are, and the grammar
+ * wants a token of that kind: so items are found before the grammar. */
+#include "parser/expand.h"
+#include "parser/report.h"
+#include <math.h>
+
+static bool begin_index(struct expander *expander, const struct seek *seek,
+                        struct location at)
+{
+    struct pending *pending = expand_begin(expander, TOK_MODE_INDEX,
+                                           USE_INDEX, at);
+    if (pending) {
+        pending->seek = *seek;
+    }
+    return pending;
+}
+
+bool item_seek(struct expander *expander, const struct seek *seek,
+               struct location at)
+{
+    return begin_index(expander, seek, at);
+}
+
+/* ---- what an item is wanted for ---------------------------------------- */
+
+static bool use_defined(struct expander *expander, const struct seek *seek,
+                        bool defined, struct location at)
+{
+    struct value answer = value_float(defined);
+    if (!expand_need(expander, ')')) {
+        return false;
+    }
+    if (seek->use == ITEM_IFDEF) {
+        return branch_ifdef(expander, seek->opener, defined);
+    }
+    expand_hold(expander, &answer, at);
+    return true;
+}
+
+static bool found(struct expander *expander, const struct seek *seek,
+                  struct location at)
+{
+    bool set = seek->item->kind != VALUE_NONE;
+    switch (seek->use) {
+    case ITEM_DECLARE:
+        return directive_declare_item(expander, seek->item, at);
+    case ITEM_DEFINED:
+    case ITEM_IFDEF:
+        return use_defined(expander, seek, set, at);
+    case ITEM_ARGUMENT:
+        return set ? macro_item(expander, seek->item, at)
+            : parser_error(expander->parser, at,
+                           "this item of the array is not set");
+    default:
+        break;
+    }
+    if (!set) {
+        return parser_error(expander->parser, at,
+                            "this item of the array is not set");
+    }
+    expand_hold(expander, seek->item, at);
+    return true;
+}
+
+/* ---- indices ----------------------------------------------------------- */
+
+/* Takes one index into account; false: out of range. */
+static bool add_index(struct expander *expander, struct seek *seek,
+                      struct location at)
+{
+    const struct array *array = seek->item->array;
+    double index = trunc(expander->result.v[0]);
+    uint32_t size = array->size[seek->dimension];
+    if (!(index >= 0 && index < size)) {
+        return parser_error(expander->parser, at, "index %g is out of range: "
+                            "dimension %d of the array has %u items, from 0",
+                            index, seek->dimension + 1, size);
+    }
+    seek->offset = seek->offset * size + (uint32_t)index;
+    seek->dimension++;
+    return true;
+}
+
+bool item_finish(struct expander *expander, const struct pending *pending)
+{
+    struct seek seek = pending->seek;
+    if (!expand_return(expander, pending->frames, pending->at)
+        || !add_index(expander, &seek, pending->at)) {
+        return false;
+    }
+    const struct array *array = seek.item->array;
+    if (seek.dimension < array->rank) {
+        return begin_index(expander, &seek, pending->at);
+    }
+    seek.item = &array->item[seek.offset];
+    seek.dimension = 0;
+    seek.offset = 0;
+    bool deeper = seek.item->kind == VALUE_ARRAY
+        && expand_peek(expander)->kind == '[';
+    return deeper ? begin_index(expander, &seek, pending->at)
+        : found(expander, &seek, pending->at);
+}
+
+bool item_defined(struct expander *expander, enum item_use use,
+                  uint32_t opener, struct location at)
+{
+    struct name *name = expand_need(expander, '(')
+        ? expand_need_name(expander) : NULL;
+    if (!name) {
+        return false;
+    }
+    struct seek seek = {.item = symbols_find(name), .use = use,
+                        .opener = opener};
+    if (expand_peek(expander)->kind != '[') {
+        return use_defined(expander, &seek, seek.item, at);
+    }
+    if (!seek.item || seek.item->kind != VALUE_ARRAY) {
+        return parser_error(expander->parser, at, "'%.40s' is not an array",
+                            name->text);
+    }
+    return item_seek(expander, &seek, at);
+}

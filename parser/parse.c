@@ -1,0 +1,136 @@
+#include "parser/parse.h"
+#include "parser/expander.h"
+#include "parser/parser.h"
+#include "parser/report.h"
+#include "parser/source.h"
+#include <string.h>
+
+static const double VERSION_DEFAULT = 3.7;
+
+/* ---- predeclared names ------------------------------------------------- */
+
+static bool predeclare(struct parser *parser, const char *word,
+                       struct value value, bool constant)
+{
+    struct name *name = symbols_name(&parser->symbols, word, strlen(word));
+    struct symbol *symbol = name
+        ? symbols_declare(&parser->symbols, name) : NULL;
+    if (!symbol) {
+        return report_no_memory(parser);
+    }
+    symbol->constant = constant;
+    symbol->value = value;
+    return true;
+}
+
+/* Brume's version as a number: 0.1 of "0.1.0". */
+static double brume_version(void)
+{
+    double major = 0, minor = 0, scale = 1;
+    const char *c = BRUME_VERSION;
+    for (; *c >= '0' && *c <= '9'; c++) {
+        major = major * 10 + (*c - '0');
+    }
+    for (c += *c == '.'; *c >= '0' && *c <= '9'; c++) {
+        minor = minor * 10 + (*c - '0');
+        scale *= 10;
+    }
+    return major + minor / scale;
+}
+
+static bool predeclare_floats(struct parser *parser)
+{
+    const struct parse_ambient *ambient = &parser->in->ambient;
+    const struct {
+        const char *word;
+        double value;
+    } floats[] = {
+        {"pi", 3.14159265358979323846}, {"true", 1}, {"yes", 1}, {"on", 1},
+        {"false", 0}, {"no", 0}, {"off", 0}, {"version", parser->version},
+        {"clock", ambient->clock}, {"clock_delta", ambient->clock_delta},
+        {"clock_on", ambient->clock_on},
+        {"frame_number", ambient->frame_number},
+        {"initial_clock", ambient->initial_clock},
+        {"final_clock", ambient->final_clock},
+        {"initial_frame", ambient->initial_frame},
+        {"final_frame", ambient->final_frame},
+        {"image_width", ambient->image_width},
+        {"image_height", ambient->image_height}
+    };
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
+        if (!predeclare(parser, floats[i].word, value_float(floats[i].value),
+                        true)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool predeclare_vectors(struct parser *parser)
+{
+    const struct {
+        const char *word;
+        int terms;
+        double v[4];
+    } vectors[] = {
+        {"x", 3, {1, 0, 0}}, {"y", 3, {0, 1, 0}}, {"z", 3, {0, 0, 1}},
+        {"t", 4, {0, 0, 0, 1}}, {"u", 2, {1, 0}}, {"v", 2, {0, 1}}
+    };
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        if (!predeclare(parser, vectors[i].word,
+                        value_vector(vectors[i].terms, vectors[i].v),
+                        true)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Those of the command line may be declared anew, as in POV-Ray. */
+static bool predeclare_given(struct parser *parser)
+{
+    const struct parse_input *in = parser->in;
+    for (size_t i = 0; i < in->declares; i++) {
+        if (!predeclare(parser, in->declare[i].name,
+                        value_float(in->declare[i].value), false)) {
+            return false;
+        }
+    }
+    return predeclare(parser, "brume", value_float(brume_version()), false);
+}
+
+/* ---- the scene --------------------------------------------------------- */
+
+static struct parse_limits limits_of(const struct parse_input *in)
+{
+    struct parse_limits limits = in->limits;
+    limits.include_depth = limits.include_depth ? limits.include_depth : 64;
+    limits.macro_depth = limits.macro_depth ? limits.macro_depth : 65536;
+    limits.iterations = limits.iterations ? limits.iterations : 1000000000;
+    limits.tokens = limits.tokens ? limits.tokens : 10000000000;
+    limits.memory = limits.memory ? limits.memory : (size_t)4 << 30;
+    return limits;
+}
+
+static bool read_scene(struct parser *parser)
+{
+    return (symbols_init(&parser->symbols, &parser->arena)
+            || report_no_memory(parser))
+        && predeclare_floats(parser) && predeclare_vectors(parser)
+        && predeclare_given(parser) && expander_run(parser);
+}
+
+bool parse_scene(const struct parse_input *in, struct parse_result *out,
+                 struct diag *diag)
+{
+    struct parser parser = {.in = in, .out = out, .diag = diag};
+    *out = (struct parse_result){.scene = NULL};
+    parser.limits = limits_of(in);
+    parser.version = in->version > 0 ? in->version : VERSION_DEFAULT;
+    arena_init(&parser.arena, parser.limits.memory);
+    bool done = read_scene(&parser) && diag->errors == 0;
+    out->version = parser.version;
+    source_release(&parser);
+    arena_release(&parser.arena);
+    return done;
+}

@@ -1,0 +1,227 @@
+#include "parser/source.h"
+#include "lib/memory.h"
+#include "parser/lexer.h"
+#include "parser/utf8.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PAD = 2 };       /* NULs that the scanner wants behind a text       */
+
+/* ---- the table of texts ------------------------------------------------ */
+
+/* Adds an empty text. NULL: no memory or too many, reported. */
+static struct source *add(struct parser *parser, struct location at,
+                          const char *name)
+{
+    if (parser->sources > UINT16_MAX) {
+        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                    "more than %d files are included", UINT16_MAX);
+        return NULL;
+    }
+    void *table = parser->source;
+    struct source *source = parser_alloc(parser, sizeof *source);
+    if (!source || !arena_grow(&parser->arena, &table, &parser->source_room,
+                               parser->sources + 1, sizeof source)) {
+        return NULL;
+    }
+    const char *slash = strrchr(name, '/');
+    parser->source = table;
+    source->id = (uint32_t)parser->sources;
+    source->name = arena_copy(&parser->arena, name, strlen(name));
+    source->folder = arena_copy(&parser->arena, name,
+                                slash ? (size_t)(slash - name) + 1 : 0);
+    if (!source->name || !source->folder) {
+        return NULL;
+    }
+    parser->source[parser->sources++] = source;
+    return source;
+}
+
+void source_release(struct parser *parser)
+{
+    for (size_t i = 0; i < parser->sources; i++) {
+        free(parser->source[i]->text);
+        free(parser->source[i]->token);
+    }
+    parser->sources = 0;
+}
+
+static struct source *known(const struct parser *parser, const char *real)
+{
+    for (size_t i = 0; i < parser->sources; i++) {
+        const char *other = parser->source[i]->real;
+        if (other && strcmp(other, real) == 0) {
+            return parser->source[i];
+        }
+    }
+    return NULL;
+}
+
+/* ---- reading ----------------------------------------------------------- */
+
+static bool over_memory(struct parser *parser, struct location at,
+                        const struct source *source)
+{
+    size_t bytes = parser->source_bytes + source->length
+        + source->room * sizeof *source->token;
+    if (parser->limits.memory && bytes > parser->limits.memory) {
+        return !parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                            "the texts need more than %zu bytes of memory",
+                            parser->limits.memory);
+    }
+    return false;
+}
+
+/* Room for `need` bytes and the padding. */
+static bool make_room(struct parser *parser, struct location at,
+                      struct source *source, size_t *room, size_t need)
+{
+    struct brume_error err = {0};
+    char *text = memory_grow(source->text, room, need + PAD, 1, &err);
+    if (!text) {
+        return parser_relay(parser, at, &err);
+    }
+    source->text = text;
+    return !over_memory(parser, at, source);
+}
+
+/* Reads up to the end, of pipes too. */
+static bool read_all(struct parser *parser, struct location at,
+                     struct source *source, int file)
+{
+    enum { STEP = 65536 };
+    struct stat status;
+    size_t room = 0;
+    size_t expected = fstat(file, &status) == 0 && status.st_size > 0
+        ? (size_t)status.st_size : STEP;
+    ssize_t got;
+    do {
+        size_t need = source->length ? source->length + STEP : expected + 1;
+        if (!make_room(parser, at, source, &room, need)) {
+            return false;
+        }
+        got = read(file, source->text + source->length,
+                   room - PAD - source->length);
+        if (got < 0 && errno != EINTR) {
+            return parser_fail(parser, BRUME_ERR_FILE, at, NULL,
+                               "'%s' could not be read: %s", source->name,
+                               strerror(errno));
+        }
+        source->length += got > 0 ? (size_t)got : 0;
+    } while (got != 0);
+    memset(source->text + source->length, 0, PAD);
+    return true;
+}
+
+static bool read_file(struct parser *parser, struct location at,
+                      struct source *source)
+{
+    int file = open(source->name, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        int why = errno;
+        return parser_fail(parser, why == EACCES || why == EPERM
+                           ? BRUME_ERR_ACCESS : BRUME_ERR_FILE, at, NULL,
+                           "'%s' could not be opened: %s", source->name,
+                           strerror(why));
+    }
+    bool done = read_all(parser, at, source, file);
+    close(file);
+    return done;
+}
+
+static bool copy_text(struct parser *parser, struct source *source)
+{
+    size_t room = 0;
+    struct location at = {0, source->id};
+    if (!make_room(parser, at, source, &room, parser->in->length)) {
+        return false;
+    }
+    source->length = parser->in->length;
+    if (source->length) {
+        memcpy(source->text, parser->in->text, source->length);
+    }
+    memset(source->text + source->length, 0, PAD);
+    return true;
+}
+
+/* Turns what was read into tokens. */
+static struct source *finish(struct parser *parser, struct location at,
+                             struct source *source)
+{
+    if (!lexer_scan(parser, source) || over_memory(parser, at, source)) {
+        return NULL;
+    }
+    parser->source_bytes += source->length
+        + source->room * sizeof *source->token;
+    return source;
+}
+
+static const char *resolve(struct parser *parser, const char *path)
+{
+    char real[PATH_MAX];
+    return realpath(path, real)
+        ? arena_copy(&parser->arena, real, strlen(real)) : NULL;
+}
+
+struct source *source_open_scene(struct parser *parser)
+{
+    struct location nowhere = {0, UINT32_MAX};
+    const char *path = parser->in->path;
+    struct source *source = add(parser, nowhere, path);
+    if (!source) {
+        return NULL;
+    }
+    if (parser->in->text) {
+        return copy_text(parser, source)
+            ? finish(parser, nowhere, source) : NULL;
+    }
+    source->real = resolve(parser, path);
+    return read_file(parser, nowhere, source)
+        ? finish(parser, nowhere, source) : NULL;
+}
+
+struct source *source_open(struct parser *parser, struct location at,
+                           struct string name)
+{
+    const char *path = parser_find_file(parser, at, name, PARSER_TEXT);
+    const char *real = path ? resolve(parser, path) : NULL;
+    struct source *source = real ? known(parser, real) : NULL;
+    if (!path || source) {
+        return source;
+    }
+    source = add(parser, at, path);
+    if (!source || !read_file(parser, at, source)) {
+        return NULL;
+    }
+    source->real = real;
+    return finish(parser, at, source);
+}
+
+/* ---- places ------------------------------------------------------------ */
+
+struct source_point source_locate(const struct source *source,
+                                  uint32_t offset)
+{
+    const char *text = source->text;
+    const char *end = text + source->length;
+    const char *at = offset < source->length ? text + offset : end;
+    struct source_point point = {.line = 1, .start = text, .at = at};
+    const char *next;
+    while ((next = memchr(point.start, '\n', (size_t)(at - point.start)))) {
+        point.start = next + 1;
+        point.line++;
+    }
+    next = memchr(at, '\n', (size_t)(end - at));
+    point.end = next ? next : end;
+    if (point.end > at && point.end[-1] == '\r') {
+        point.end--;
+    }
+    point.column = 1 + (int)utf8_count(point.start,
+                                       (size_t)(at - point.start));
+    return point;
+}

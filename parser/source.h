@@ -1,0 +1,35 @@
+/* source.h - the texts of a scene: read, and turned once into tokens. */
+#ifndef PARSER_SOURCE_H
+#define PARSER_SOURCE_H
+#include "parser/parser.h"
+
+/* A text and its tokens, of which the last is TOK_END. */
+struct source {
+    uint32_t id;            /* index in the parser's table of texts        */
+    const char *name;       /* as diagnostics print it                     */
+    const char *folder;     /* of the text, "" for the working folder      */
+    const char *real;       /* resolved path; NULL: not read from a file   */
+    char *text;
+    size_t length;
+    struct token *token;
+    size_t tokens, room;
+};
+
+/* The scene itself. NULL: could not be read, reported. */
+struct source *source_open_scene(struct parser *parser);
+/* A text that #include names; one that was read already is found again. */
+struct source *source_open(struct parser *parser, struct location at,
+                           struct string name);
+/* Frees texts and tokens. */
+void source_release(struct parser *parser);
+
+/* A line and column of a text, both from 1; columns count characters. */
+struct source_point {
+    int line, column;
+    const char *start, *end;    /* the line, without its end               */
+    const char *at;
+};
+struct source_point source_locate(const struct source *source,
+                                  uint32_t offset);
+
+#endif

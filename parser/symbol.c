@@ -1,0 +1,206 @@
+#include "parser/symbol.h"
+#include "parser/diag.h"
+#include <string.h>
+
+/* ---- names ------------------------------------------------------------- */
+
+/* FNV-1a, 32 bits. */
+static uint32_t hash_word(const char *text, size_t length)
+{
+    uint32_t hash = 2166136261u;
+    for (size_t i = 0; i < length; i++) {
+        hash = (hash ^ (unsigned char)text[i]) * 16777619u;
+    }
+    return hash;
+}
+
+/* Twice as many buckets; without memory the old ones serve on. */
+static void grow_buckets(struct symbols *symbols)
+{
+    size_t count = symbols->buckets * 2;
+    struct name **bucket = arena_array(symbols->arena, count, sizeof *bucket);
+    if (!bucket) {
+        return;
+    }
+    for (size_t i = 0; i < symbols->buckets; i++) {
+        struct name *name = symbols->bucket[i];
+        while (name) {
+            struct name *next = name->chain;
+            struct name **slot = &bucket[name->hash & (count - 1)];
+            name->chain = *slot;
+            *slot = name;
+            name = next;
+        }
+    }
+    symbols->bucket = bucket;
+    symbols->buckets = count;
+}
+
+static struct name *add_name(struct symbols *symbols, const char *text,
+                             size_t length, uint32_t hash)
+{
+    struct name *name = arena_alloc(symbols->arena,
+                                    sizeof *name + length + 1);
+    if (!name) {
+        return NULL;
+    }
+    if (symbols->names++ > symbols->buckets) {
+        grow_buckets(symbols);
+    }
+    struct name **slot = &symbols->bucket[hash & (symbols->buckets - 1)];
+    name->chain = *slot;
+    name->hash = hash;
+    name->length = (uint32_t)length;
+    memcpy(name->text, text, length);
+    *slot = name;
+    return name;
+}
+
+struct name *symbols_name(struct symbols *symbols, const char *text,
+                          size_t length)
+{
+    uint32_t hash = hash_word(text, length);
+    struct name *name = symbols->bucket[hash & (symbols->buckets - 1)];
+    while (name && (name->hash != hash || name->length != length
+                    || memcmp(name->text, text, length) != 0)) {
+        name = name->chain;
+    }
+    return name ? name : add_name(symbols, text, length, hash);
+}
+
+bool symbols_init(struct symbols *symbols, struct arena *arena)
+{
+    enum { BUCKETS = 2048 };
+    *symbols = (struct symbols){.arena = arena, .buckets = BUCKETS};
+    symbols->bucket = arena_array(arena, BUCKETS, sizeof *symbols->bucket);
+    if (!symbols->bucket || !arena_grow(arena, &symbols->scope,
+                                        &symbols->scope_room, 1,
+                                        sizeof(struct symbol *))) {
+        return false;
+    }
+    for (int i = 0; i < keyword_count; i++) {
+        const struct keyword *row = &keyword_table[i];
+        struct name *name = symbols_name(symbols, row->word,
+                                         strlen(row->word));
+        if (!name) {
+            return false;
+        }
+        name->keyword = row;
+    }
+    return true;
+}
+
+/* ---- scopes ------------------------------------------------------------ */
+
+static struct symbol **newest(struct symbols *symbols)
+{
+    return (struct symbol **)symbols->scope + symbols->level;
+}
+
+bool symbols_enter(struct symbols *symbols)
+{
+    if (!arena_grow(symbols->arena, &symbols->scope, &symbols->scope_room,
+                    symbols->level + 2, sizeof(struct symbol *))) {
+        return false;
+    }
+    symbols->level++;
+    *newest(symbols) = NULL;
+    return true;
+}
+
+/* Declarations of a scope are on top of their names' stacks, save those that
+ * #undef took away, which nothing may use again: a parameter may refer to
+ * them. */
+void symbols_leave(struct symbols *symbols)
+{
+    struct symbol *symbol = *newest(symbols);
+    while (symbol) {
+        struct symbol *next = symbol->next;
+        if (!symbol->removed) {
+            symbol->name->symbol = symbol->outer;
+            symbol->next = symbols->spare;
+            symbols->spare = symbol;
+        }
+        symbol = next;
+    }
+    symbols->level--;
+}
+
+/* ---- declarations ------------------------------------------------------ */
+
+struct value *symbol_value(struct symbol *symbol)
+{
+    return symbol->refers ? symbol->refers : &symbol->value;
+}
+
+struct value *symbols_find(const struct name *name)
+{
+    struct value *value = name->symbol ? symbol_value(name->symbol) : NULL;
+    return value && value->kind != VALUE_NONE ? value : NULL;
+}
+
+static struct symbol *add_symbol(struct symbols *symbols, struct name *name,
+                                 uint32_t level)
+{
+    struct symbol **head = (struct symbol **)symbols->scope + level;
+    struct symbol *symbol = symbols->spare;
+    if (symbol) {
+        symbols->spare = symbol->next;
+    } else {
+        symbol = arena_alloc(symbols->arena, sizeof *symbol);
+    }
+    if (symbol) {
+        *symbol = (struct symbol){.name = name, .outer = name->symbol,
+                                  .next = *head, .level = level};
+        *head = symbol;
+        name->symbol = symbol;
+    }
+    return symbol;
+}
+
+struct symbol *symbols_declare(struct symbols *symbols, struct name *name)
+{
+    return name->symbol ? name->symbol : add_symbol(symbols, name, 0);
+}
+
+struct symbol *symbols_local(struct symbols *symbols, struct name *name)
+{
+    return name->symbol && name->symbol->level == symbols->level
+        ? name->symbol : add_symbol(symbols, name, symbols->level);
+}
+
+void symbols_undefine(struct name *name)
+{
+    struct symbol *symbol = name->symbol;
+    if (symbol) {
+        symbol->removed = true;
+        symbol->value.kind = VALUE_NONE;
+        name->symbol = symbol->outer;
+    }
+}
+
+/* ---- suggestions ------------------------------------------------------- */
+
+const char *symbols_suggest(const struct symbols *symbols,
+                            const struct name *name)
+{
+    size_t bound = name->length < 4 ? 1 : name->length < 8 ? 2 : 3;
+    const struct name *best = NULL;
+    for (size_t i = 0; i < symbols->buckets; i++) {
+        for (struct name *n = symbols->bucket[i]; n; n = n->chain) {
+            if (n == name || (!n->keyword && !symbols_find(n))) {
+                continue;
+            }
+            size_t distance = diag_distance(name->text, name->length, n->text,
+                                            n->length, bound);
+            /* Ties go to the first in the alphabet, whatever the hashes. */
+            if (distance <= bound
+                && (!best || distance < bound
+                    || strcmp(n->text, best->text) < 0)) {
+                best = n;
+                bound = distance;
+            }
+        }
+    }
+    return best ? best->text : NULL;
+}
