@@ -1,0 +1,110 @@
+/* options.h - what a run is asked to do, read from the command line and from
+ * INI files.
+ *
+ * POV-Ray's switches and INI options mean what they mean there (brume.1 says
+ * where Brume differs); GNU long options name what POV-Ray lacks. The table of
+ * option_table.c is the one list of them all. */
+#ifndef PARSER_OPTIONS_H
+#define PARSER_OPTIONS_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include "core/brume.h"
+#include "lib/arena.h"
+#include "parser/diag.h"
+#include "parser/parse.h"
+
+enum options_action {
+    OPTIONS_RENDER, OPTIONS_CHECK, OPTIONS_EXPLAIN, OPTIONS_EXPLAIN_JSON,
+    OPTIONS_HELP, OPTIONS_VERSION
+};
+
+enum options_format {
+    OPTIONS_FORMAT_PNG, OPTIONS_FORMAT_EXR, OPTIONS_FORMAT_PPM
+};
+
+/* POV-Ray's text streams; the last is a file for all of them. */
+enum options_stream {
+    OPTIONS_DEBUG, OPTIONS_FATAL, OPTIONS_RENDERING, OPTIONS_STATISTICS,
+    OPTIONS_WARNING, OPTIONS_ALL, OPTIONS_STREAMS
+};
+
+struct options_list {       /* of texts, in the order they were given      */
+    const char **item;
+    size_t count, room;
+};
+
+/* Texts lie in the arena. */
+struct options {
+    struct arena arena;
+    enum options_action action;
+
+    const char *input;              /* the scene, "-": stdin, NULL: none   */
+    const char *input_folder;       /* of the INI file that names `input`,
+                                       ended by '/'; NULL: none            */
+    const char *header;             /* +HI                                 */
+    double version;                 /* +MV, 0: not given                   */
+    struct options_list library, allow_read, allow_write;
+    struct parse_declare *declare;
+    size_t declares, declare_room;
+
+    const char *output;             /* +O, NULL: named after the scene     */
+    bool to_file;
+    bool has_format;                /* else the name of `output` picks it  */
+    enum options_format format;
+    int bits;                       /* per colour, as asked for: 5 to 16   */
+    bool alpha;
+    int width, height;
+    /* As given: pixels counted from 1, or fractions; below 0: not given. */
+    double start_column, end_column, start_row, end_row;
+
+    bool has_clock;
+    double clock;                   /* of a still                          */
+    int initial_frame, final_frame, frame_step;
+    double initial_clock, final_clock;
+    /* A fraction of final_frame if below 1; below 0: not given. */
+    double subset_start, subset_end;
+    bool cyclic;
+
+    enum brume_backend backend;
+    bool has_integrator;
+    enum brume_integrator integrator;
+    bool full_transport;
+    int spp;
+    double error, seconds;
+    int threads;
+    uint64_t seed, memory;
+    const char *stats;              /* file of --stats, or NULL            */
+
+    bool has_verbose, verbose;      /* +V                                  */
+    bool console[OPTIONS_STREAMS];
+    const char *stream_file[OPTIONS_STREAMS];
+    bool append;                    /* to the files of the streams         */
+    int warning_level;
+};
+
+/* Sets every default of the table. */
+void options_init(struct options *options);
+void options_release(struct options *options);
+
+/* Reads the words of a command line in their order; a later one overrides an
+ * earlier one. Goes on after an error so that all of them are reported.
+ * False: `diag` has errors, their code mostly BRUME_ERR_USAGE. */
+bool options_read_words(struct options *options, int count,
+                        const char *const *word, struct diag *diag);
+
+/* Reads one INI file; of its sections only the one named (NULL: none), with
+ * what stands before the first. */
+bool options_read_ini(struct options *options, const char *path,
+                      const char *section, struct diag *diag);
+
+/* The INI file that is read before the command line: the first there is of
+ * brume.ini and povray.ini in the working folder, then in the user's folders.
+ * The path lies in the arena; NULL: none. */
+const char *options_find_ini(struct options *options);
+
+/* What --help prints, made from the table. */
+void options_help(FILE *to);
+
+#endif
