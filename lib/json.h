@@ -1,0 +1,29 @@
+/* json.h - making JSON texts, through jansson.
+ *
+ * Everything made is put into an object or an array, which then owns it; a
+ * value that is NULL (no memory) makes the call return false. Bytes that are
+ * not UTF-8 become '?', and numbers that are not finite become null. */
+#ifndef LIB_JSON_H
+#define LIB_JSON_H
+#include <stdbool.h>
+#include <stdint.h>
+#include "lib/error.h"
+
+struct json;                /* an object or an array                       */
+
+struct json *json_new_object(void);
+struct json *json_new_array(void);
+void json_free(struct json *json);
+
+/* Into an object under a key, or into an array, then with key NULL. */
+bool json_put(struct json *into, const char *key, struct json *value);
+bool json_put_text(struct json *into, const char *key, const char *text);
+bool json_put_number(struct json *into, const char *key, double number);
+bool json_put_count(struct json *into, const char *key, uint64_t count);
+bool json_put_flag(struct json *into, const char *key, bool flag);
+
+/* The text, indented, in the order of putting, with a line end; the caller
+ * frees it. NULL with err set (BRUME_ERR_MEMORY). */
+char *json_text(const struct json *json, struct brume_error *err);
+
+#endif
