@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 bool input_read(FILE *from, const char *name, size_t limit,
                 struct arena *arena, char **text, size_t *length,
@@ -89,4 +90,24 @@ const char *input_find(struct options *options, struct brume_error *err)
         brume_fail(err, BRUME_ERR_FILE, "can't find the scene '%s'",
                    options->input);
     return path;
+}
+
+const char *input_own_folder(struct arena *arena)
+{
+    static const char *const below[] = {
+        "../share/brume/scenes/include", "../scenes/include",
+        "../../scenes/include",
+    };
+    char program[4096];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length <= 0)
+        return NULL;
+    program[length] = '\0';
+    program[strrchr(program, '/') - program] = '\0';
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++) {
+        const char *path = try_file(arena, program, below[i], "");
+        if (path)
+            return path;
+    }
+    return NULL;
 }

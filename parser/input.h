@@ -24,4 +24,8 @@ bool input_read_file(const char *path, size_t limit, struct arena *arena,
  * on the library path. NULL with err set (BRUME_ERR_FILE): nowhere. */
 const char *input_find(struct options *options, struct brume_error *err);
 
+/* The folder of the include files that come with the program, found from
+ * where the program lies: as installed, or in the source tree. NULL: none. */
+const char *input_own_folder(struct arena *arena);
+
 #endif

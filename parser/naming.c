@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 static const char *const extensions[] = {
     [OPTIONS_FORMAT_PNG] = ".png",
@@ -95,12 +96,20 @@ static bool names_no_file(const char *output)
     return !output || !*output || output[strlen(output) - 1] == '/';
 }
 
+/* A device or a pipe has the name it has. */
+static bool is_special(const char *path)
+{
+    struct stat status;
+    return path && stat(path, &status) == 0 && !S_ISREG(status.st_mode) &&
+           !S_ISDIR(status.st_mode);
+}
+
 const char *naming_picture(const struct options *options,
                            const struct frames *frames, int number,
                            struct arena *arena)
 {
-    if (is_standard_output(options))
-        return "-";
+    if (is_standard_output(options) || is_special(options->output))
+        return options->output;
     const char *extension = extensions[naming_format(options)];
     const char *stem = names_no_file(options->output)
                            ? stem_of_scene(options, arena)

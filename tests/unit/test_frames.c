@@ -230,6 +230,8 @@ static void test_naming__still(void **state)
     assert_picture(0, "stdin.png");
     READ("s.pov", "+O-");
     assert_picture(0, "-");
+    READ("s.pov", "+O/dev/null", "+FE");
+    assert_picture(0, "/dev/null");
 }
 
 static void test_naming__extension(void **state)

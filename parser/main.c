@@ -1,0 +1,199 @@
+/* The program: the only place that prints and that ends the process. */
+#include "parser/console.h"
+#include "parser/explain.h"
+#include "parser/options.h"
+#include "parser/reel.h"
+#include "parser/stats.h"
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Set by SIGINT and SIGTERM; a second one of them ends the process at once. */
+static volatile sig_atomic_t stop;
+
+static void on_signal(int signal)
+{
+    (void)signal;
+    stop = 1;
+}
+
+/* Without SA_RESTART, so that a read that waits for input ends too. A closed
+ * pipe is an error of writing, told as such. */
+static void catch_signals(void)
+{
+    struct sigaction action = {
+        .sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND,
+    };
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+struct run {
+    struct options options;
+    struct console console;
+    struct reel reel;
+    enum brume_code code;           /* of what the events below did        */
+};
+
+/* ---- events ------------------------------------------------------------ */
+
+static void on_report(void *user, const struct diag *diag)
+{
+    console_diag(&((struct run *)user)->console, diag);
+}
+
+static void on_message(void *user, enum parse_stream stream, const char *text)
+{
+    console_message(&((struct run *)user)->console, stream, text);
+}
+
+static void on_frame(void *user, const struct frames *frames, int number)
+{
+    console_frame(&((struct run *)user)->console, frames, number);
+}
+
+static void on_progress(void *user, const struct brume_progress *progress)
+{
+    console_progress(&((struct run *)user)->console, progress);
+}
+
+static void on_finished(void *user, const struct reel_record *record)
+{
+    console_finished(&((struct run *)user)->console, record);
+}
+
+static bool on_stopped(void *user)
+{
+    (void)user;
+    return stop;
+}
+
+static enum brume_code tell(struct run *run, const struct brume_error *err)
+{
+    struct diag diag;
+    diag_init(&diag);
+    diag_error(&diag, err->code, "%s", err->text);
+    console_diag(&run->console, &diag);
+    diag_release(&diag);
+    return err->code;
+}
+
+static void on_planned(void *user, const struct brume_plan *plan)
+{
+    struct run *run = user;
+    struct brume_error err = { 0 };
+    if (run->options.action == OPTIONS_EXPLAIN) {
+        explain_text(plan, stdout);
+        return;
+    }
+    char *text = explain_json(plan, &err);
+    if (text)
+        fputs(text, stdout);
+    else
+        run->code = tell(run, &err);
+    free(text);
+}
+
+/* ---- the run ----------------------------------------------------------- */
+
+static enum brume_code act(struct run *run)
+{
+    const struct reel_events events = {
+        .user = run, .report = on_report, .message = on_message,
+        .frame = on_frame, .planned = on_planned, .progress = on_progress,
+        .finished = on_finished, .stopped = on_stopped,
+        .in = stdin, .out = stdout,
+    };
+    struct brume_error err = { 0 };
+    enum brume_code code = reel_run(&run->reel, &run->options, &events);
+    if (code == BRUME_STOPPED)
+        fprintf(stderr, "stopped; %zu frames were finished\n",
+                run->reel.records);
+    if (code == BRUME_OK)
+        code = run->code;
+    const char *stats = run->options.stats;
+    if (stats && !stats_write(&run->reel, code, stats, &err))
+        code = code ? code : tell(run, &err);
+    reel_release(&run->reel);
+    return code;
+}
+
+static enum brume_code render(struct run *run, const struct diag *diag)
+{
+    struct brume_error err = { 0 };
+    enum brume_code code = BRUME_OK;
+    if (!console_open(&run->console, &run->options, stderr,
+                      isatty(STDERR_FILENO), &err))
+        code = tell(run, &err);
+    console_diag(&run->console, diag);
+    if (!code && !diag->errors && !run->options.input) {
+        fputs("error: no scene is given\nhint: brume --help tells what can "
+              "be\n", stderr);
+        code = BRUME_ERR_USAGE;
+    }
+    if (diag->errors)
+        code = diag->code;
+    if (!code)
+        code = act(run);
+    console_close(&run->console);
+    return code;
+}
+
+/* -h and -? are POV-Ray's when they stand alone; elsewhere -H is a height. */
+static bool asks_for_help(int count, char **word)
+{
+    static const char *const words[] = { "-h", "-H", "+H", "-?", "-help" };
+    for (size_t i = 0; count == 2 && i < sizeof words / sizeof *words; i++)
+        if (strcmp(word[1], words[i]) == 0)
+            return true;
+    return false;
+}
+
+static void read_options(struct options *options, int count, char **word,
+                         struct diag *diag)
+{
+    const char *ini = options_find_ini(options);
+    if (ini)
+        options_read_ini(options, ini, NULL, diag);
+    if (count > 1 && strcmp(word[1], "measure") == 0)
+        diag_error(diag, BRUME_ERR_USAGE, "measure: not supported yet");
+    else
+        options_read_words(options, count - 1,
+                           (const char *const *)(word + 1), diag);
+}
+
+static enum brume_code start(struct run *run, int count, char **word)
+{
+    struct diag diag;
+    diag_init(&diag);
+    read_options(&run->options, count, word, &diag);
+    enum options_action action = run->options.action;
+    enum brume_code code = BRUME_OK;
+    if (asks_for_help(count, word) || action == OPTIONS_HELP)
+        options_help(stdout);
+    else if (action == OPTIONS_VERSION)
+        puts("brume " BRUME_VERSION);
+    else
+        code = render(run, &diag);
+    diag_release(&diag);
+    return code;
+}
+
+int main(int count, char **word)
+{
+    struct run run = { .code = BRUME_OK };
+    catch_signals();
+    options_init(&run.options);
+    enum brume_code code = start(&run, count, word);
+    options_release(&run.options);
+    bool written = fflush(stdout) == 0 && !ferror(stdout);
+    if (!written && code == BRUME_OK) {
+        fprintf(stderr, "error: can't write to standard output: %s\n",
+                strerror(errno));
+        code = BRUME_ERR_FILE;
+    }
+    return code;
+}

@@ -1,0 +1,91 @@
+#include "parser/stats.h"
+#include "lib/json.h"
+#include "lib/output.h"
+#include "parser/explain.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void stats_line(const struct reel_record *r, FILE *to)
+{
+    const struct brume_stats *s = &r->stats;
+    const char *name = r->picture ? r->picture : "no picture";
+    double seconds = r->seconds_parse + s->seconds_prepare +
+                     s->seconds_render + r->seconds_write;
+    char error[32] = "unknown", bytes[32];
+    if (isfinite(s->error))
+        snprintf(error, sizeof error, "%.2g %%", 100 * s->error);
+    fprintf(to, "%s: %d samples a pixel, error %s, %.3g s (scene %.3g, "
+            "preparing %.3g, rendering %.3g), %s, %s\n",
+            strcmp(name, "-") == 0 ? "standard output" : name, s->spp, error,
+            seconds, r->seconds_parse, s->seconds_prepare, s->seconds_render,
+            explain_bytes(s->bytes, bytes, sizeof bytes), s->backend);
+}
+
+static bool put_seconds(struct json *json, const struct reel_record *r)
+{
+    const struct brume_stats *s = &r->stats;
+    struct json *seconds = json_new_object();
+    bool ok = json_put_number(seconds, "parse", r->seconds_parse) &&
+              json_put_number(seconds, "prepare", s->seconds_prepare) &&
+              json_put_number(seconds, "render", s->seconds_render) &&
+              json_put_number(seconds, "write", r->seconds_write);
+    return json_put(json, "seconds", seconds) && ok;
+}
+
+static bool put_counts(struct json *json, const struct brume_stats *s)
+{
+    return json_put_text(json, "backend", s->backend) &&
+           json_put_count(json, "spp", (uint64_t)s->spp) &&
+           json_put_number(json, "error", s->error) &&
+           json_put_count(json, "paths", s->paths) &&
+           json_put_count(json, "rays", s->rays) &&
+           json_put_count(json, "shadow_rays", s->shadow_rays) &&
+           json_put_count(json, "collisions", s->collisions) &&
+           json_put_count(json, "lookups", s->lookups) &&
+           json_put_count(json, "majorant_exceeded", s->majorant_exceeded) &&
+           json_put_count(json, "rejected", s->rejected) &&
+           json_put_count(json, "bytes", s->bytes);
+}
+
+static struct json *frame_json(const struct reel_record *r)
+{
+    struct json *json = json_new_object();
+    bool ok = json_put_count(json, "frame", (uint64_t)r->number) &&
+              json_put_number(json, "clock", r->clock) &&
+              (!r->picture || json_put_text(json, "picture", r->picture)) &&
+              put_counts(json, &r->stats) && put_seconds(json, r);
+    if (ok)
+        return json;
+    json_free(json);
+    return NULL;
+}
+
+static bool put_run(struct json *json, const struct reel *reel,
+                    enum brume_code code)
+{
+    const struct options *o = reel->options;
+    return json_put_text(json, "brume", BRUME_VERSION) &&
+           json_put_text(json, "scene", o->input ? o->input : "") &&
+           json_put_count(json, "width", (uint64_t)o->width) &&
+           json_put_count(json, "height", (uint64_t)o->height) &&
+           json_put_count(json, "seed", o->seed) &&
+           json_put_count(json, "exit_code", (uint64_t)code);
+}
+
+bool stats_write(const struct reel *reel, enum brume_code code,
+                 const char *path, struct brume_error *err)
+{
+    struct json *json = json_new_object(), *frames = json_new_array();
+    bool ok = put_run(json, reel, code);
+    for (size_t i = 0; ok && i < reel->records; i++)
+        ok = json_put(frames, NULL, frame_json(&reel->record[i]));
+    ok = json_put(json, "frames", frames) && ok;
+    char *text = ok ? json_text(json, err) : NULL;
+    if (!text)
+        brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+    ok = text && output_write(path, text, strlen(text), err);
+    free(text);
+    json_free(json);
+    return ok;
+}
