@@ -15,6 +15,11 @@
 #define SAMPLES_PER_VOXEL 1.0
 #define SAMPLES_PER_UNIT 8.0
 
+/* Weight of finding emission along a ray against choosing a glowing voxel, in
+ * units of the emission samples' rate. On the campfire the error fell from
+ * 1 to 0.03 by a fifth, and stayed from there. */
+#define GLOW_KAPPA 0.03f
+
 struct lattice {
     const struct flat *flat;
     flat_medium *medium;
@@ -281,7 +286,7 @@ static bool make_bounds(const struct prepare *job, flat_medium *m,
         m->outside = cell_bound(&l, bound_everywhere, NULL, NULL);
     else if (!make_lattice(job, &l, lead, err))
         return false;
-    m->kappa = l.rate;
+    m->kappa = GLOW_KAPPA * l.rate;
     m->emits = !rgb_is_black(m->emission) || (m->fire && m->intensity > 0.0f);
     return true;
 }

@@ -40,9 +40,9 @@ HD rgb blackbody_rgb(const blackbody_table *t, float kelvin)
 {
     if (!(kelvin >= BLACKBODY_LOWEST_KELVIN))
         return rgb_gray(0.0f);
-    kelvin = fminf(kelvin, BLACKBODY_HIGHEST_KELVIN);
+    kelvin = hd_min(kelvin, BLACKBODY_HIGHEST_KELVIN);
     float p = BLACKBODY_LOWEST_KELVIN * (BLACKBODY_ENTRIES - 1) / kelvin;
-    float node = fminf(floorf(p), (float)(BLACKBODY_ENTRIES - 2));
+    float node = hd_min((float)hd_floor(p), (float)(BLACKBODY_ENTRIES - 2));
     int i = (int)node;
     float x = kelvin * fm_exp(blackbody_cubic(t->log_x + i, p - node));
     float y = kelvin * fm_exp(blackbody_cubic(t->log_y + i, p - node));

@@ -130,10 +130,11 @@ HD float bvh_enter(const bvh_node *n, const bvh_ray *r, float t_min,
     float by = (n->hi[1] - r->o.y) * r->inverse.y;
     float az = (n->lo[2] - r->o.z) * r->inverse.z;
     float bz = (n->hi[2] - r->o.z) * r->inverse.z;
-    float enter = fmaxf(fmaxf(fminf(ax, bx), fminf(ay, by)),
-                        fmaxf(fminf(az, bz), t_min));
-    float leave = fminf(fminf(fmaxf(ax, bx), fmaxf(ay, by)), fmaxf(az, bz));
-    return enter <= fminf(leave * wider, t_max) ? enter : INFINITY;
+    float enter = hd_max(hd_max(hd_min(ax, bx), hd_min(ay, by)),
+                        hd_max(hd_min(az, bz), t_min));
+    float leave = hd_min(hd_min(hd_max(ax, bx), hd_max(ay, by)),
+                         hd_max(az, bz));
+    return enter <= hd_min(leave * wider, t_max) ? enter : INFINITY;
 }
 
 /* Nearest hit behind `after` and before distance t_max. */

@@ -280,7 +280,7 @@ HD float fm_atan2(float y, float x)
     float ax = fabsf(x), ay = fabsf(y);
     if (x != x || y != y)
         return x + y;
-    float big = fmaxf(ax, ay), small = fminf(ax, ay);
+    float big = hd_max(ax, ay), small = hd_min(ax, ay);
     float z = small == big ? (big > 0.0f ? 1.0f : 0.0f) : small / big;
     float a = fm_atan_reduced(z);
     if (ay > ax)

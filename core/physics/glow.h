@@ -62,9 +62,9 @@ HD float glow_pdf(const flat_scene *s, const flat_glow *g, vec3 p)
     float limit = 1e9f;
     if (!(fabsf(q.x) < limit && fabsf(q.y) < limit && fabsf(q.z) < limit))
         return 0.0f;
-    int x = grid_floor(q.x) - g->origin[0];
-    int y = grid_floor(q.y) - g->origin[1];
-    int z = grid_floor(q.z) - g->origin[2];
+    int x = hd_floor(q.x) - g->origin[0];
+    int y = hd_floor(q.y) - g->origin[1];
+    int z = hd_floor(q.z) - g->origin[2];
     if (x < 0 || y < 0 || z < 0 || x >= 8 * g->bricks[0] ||
         y >= 8 * g->bricks[1] || z >= 8 * g->bricks[2])
         return 0.0f;

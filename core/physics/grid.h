@@ -3,13 +3,6 @@
 #define CORE_PHYSICS_GRID_H
 #include "core/physics/scene.h"
 
-/* Floor to int for |x| < 2^31. */
-HD int grid_floor(float x)
-{
-    int i = (int)x;
-    return i - (x < (float)i);
-}
-
 HD float grid_lerp(float a, float b, float t)
 {
     return a + t * (b - a);

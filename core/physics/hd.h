@@ -15,6 +15,25 @@
 #define HD static inline
 #endif
 
+/* Like fminf and fmaxf, which are calls on a plain x86-64, but for NaN: the
+ * second argument is returned if either is NaN. */
+HD float hd_min(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+HD float hd_max(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Floor to int; what lies beyond 2^30 is taken as there. */
+HD int hd_floor(float x)
+{
+    int i = (int)hd_max(hd_min(x, 1073741824.0f), -1073741824.0f);
+    return i - (x < (float)i);
+}
+
 /* Tables live in the constant memory of a device, in read-only data of a
  * host: HD_TABLE(float, name, 3) = { ... }; */
 #ifdef __CUDACC__

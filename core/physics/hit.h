@@ -84,7 +84,7 @@ HD hit_point hit_resolve(const flat_scene *s, const bvh_ray *r,
         out.ns = vec3_scale(out.ns, -1.0f);
     int i = hit_checker(m, out.p);
     out.color = m->color[i];
-    out.opacity = fminf(fmaxf(1.0f - m->filter[i] - m->transmit[i], 0.0f),
+    out.opacity = hd_min(hd_max(1.0f - m->filter[i] - m->transmit[i], 0.0f),
                         1.0f);
     out.pass = rgb_add(rgb_scale(out.color, m->filter[i]),
                        rgb_gray(m->transmit[i]));

@@ -21,6 +21,7 @@ typedef struct {
 /* A voxel lattice along the ray. */
 typedef struct {
     vec3 o, d, inverse;
+    vec3 next;              /* distances of the next plane of each axis    */
 } line_lattice;
 
 typedef struct {
@@ -46,30 +47,44 @@ HD void line_add_lattices(line_job *job, const flat_medium *m)
                         vec3_make(shift, shift, shift));
         l->d = affine_vector(&f->to_index, job->d);
         l->inverse = vec3_make(1.0f / l->d.x, 1.0f / l->d.y, 1.0f / l->d.z);
+        l->next = vec3_make(-INFINITY, -INFINITY, -INFINITY);
     }
 }
 
-/* Distance of the first plane of one axis beyond t. */
+/* Distance of the first plane of one axis beyond t; none beyond 2^30 voxels
+ * from the grid's origin, where the spacing of floats is over 64 voxels. */
 HD float line_plane(float o, float d, float inverse, float t)
 {
-    if (d == 0.0f)
-        return INFINITY;
     float x = o + t * d;
-    float step = d > 0.0f ? 1.0f : -1.0f;
-    float plane = d > 0.0f ? floorf(x) + 1.0f : ceilf(x) - 1.0f;
+    if (d == 0.0f || !(fabsf(x) < 1073741824.0f))
+        return INFINITY;
+    int at = hd_floor(x);
+    float plane = (float)(d > 0.0f ? at + 1 : (float)at == x ? at - 1 : at);
     float next = (plane - o) * inverse;
-    return next > t ? next : (plane + step - o) * inverse;
+    return next > t ? next
+                    : (plane + (d > 0.0f ? 1.0f : -1.0f) - o) * inverse;
+}
+
+/* Finds the planes beyond t, of the axes whose planes t has reached. */
+HD void line_advance(line_job *job, float t)
+{
+    for (int i = 0; i < job->lattices; i++) {
+        line_lattice *l = &job->lattice[i];
+        if (!(l->next.x > t))
+            l->next.x = line_plane(l->o.x, l->d.x, l->inverse.x, t);
+        if (!(l->next.y > t))
+            l->next.y = line_plane(l->o.y, l->d.y, l->inverse.y, t);
+        if (!(l->next.z > t))
+            l->next.z = line_plane(l->o.z, l->d.z, l->inverse.z, t);
+    }
 }
 
 HD float line_stop(const line_job *job, float t, float t_end)
 {
     float stop = t_end;
     for (int i = 0; i < job->lattices; i++) {
-        const line_lattice *l = &job->lattice[i];
-        float x = line_plane(l->o.x, l->d.x, l->inverse.x, t);
-        float y = line_plane(l->o.y, l->d.y, l->inverse.y, t);
-        float z = line_plane(l->o.z, l->d.z, l->inverse.z, t);
-        stop = fminf(stop, fminf(x, fminf(y, z)));
+        vec3 n = job->lattice[i].next;
+        stop = hd_min(stop, hd_min(n.x, hd_min(n.y, n.z)));
     }
     return stop > t ? stop : t_end;
 }
@@ -133,12 +148,13 @@ HD bool line_piece_empty(const media_walk *w)
     return true;
 }
 
-HD void line_piece(const line_job *job, const media_walk *w,
+HD void line_piece(line_job *job, const media_walk *w,
                    line_integral *out)
 {
     const float node = 0.211324865f;    /* (1 - 1/sqrt 3) / 2 */
     float t = w->t;
     while (t < w->t_end) {
+        line_advance(job, t);
         float stop = line_stop(job, t, w->t_end), length = stop - t;
         line_point a = line_at(job, w, t + node * length);
         line_point b = line_at(job, w, stop - node * length);

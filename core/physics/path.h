@@ -26,6 +26,8 @@ typedef struct {
     rgb radiance;           /* gathered so far                             */
     int32_t driver;
     int32_t straight;       /* still on the line from the eye              */
+    float boost;            /* scattering events of this segment are drawn
+                               so many times as often, and weigh so much less */
     float p_dir;            /* density per solid angle with which d was
                                chosen at o; 0: not chosen                  */
     vec3 o, d;
@@ -88,13 +90,17 @@ HD void path_point_at(const flat_scene *s, path_state *p,
                       1.0f / rgb_mean(rgb_mul(p->r_u, majorant))));
 }
 
-HD rgb path_majorant(const flat_scene *s, const media_walk *w)
+/* Emission is sampled at tentative collisions, so where it is wanted they are
+ * drawn more often than the coefficients ask. */
+HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < w->count; i++) {
         const majorant_cell *b = &w->part[i].bound;
         rgb sigma = rgb_scale(s->media[w->part[i].medium].bound, b->density);
-        sum = rgb_add(sum, rgb_add(sigma, rgb_gray(b->rate)));
+        sum = rgb_add(sum, sigma);
+        if (emission)
+            sum = rgb_add(sum, rgb_gray(b->rate));
     }
     return sum;
 }
@@ -115,7 +121,8 @@ HD void path_fly(path_state *p, rgb majorant, float distance)
 
 HD int path_null(path_state *p, const path_point *at, rgb majorant)
 {
-    rgb chance = rgb_sub(majorant, rgb_add(at->all_a, at->all_s));
+    rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
+    rgb chance = rgb_sub(majorant, drawn);
     float driver = rgb_get(chance, p->driver);
     if (!(driver > 0.0f))
         return PATH_ENDED;      /* density 0: drawn by rounding only */
@@ -132,19 +139,20 @@ HD int path_collide(path_state *p, const media_walk *w,
                     const path_point *at, rgb majorant, int *which)
 {
     float m = rgb_get(majorant, p->driver);
-    if (rgb_get(rgb_add(at->all_a, at->all_s), p->driver) > m * 1.00001f)
+    rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
+    if (rgb_get(drawn, p->driver) > m * 1.00001f)
         p->count.majorant_exceeded++;
     float x = path_fine(&p->random) * m;
     for (int i = 0; i < w->count; i++) {
         float sigma = rgb_get(at->sigma_s[i], p->driver);
-        if (x < sigma) {
+        if (x < p->boost * sigma) {
             rgb ratio = rgb_scale(at->sigma_s[i], 1.0f / sigma);
-            p->beta = rgb_mul(p->beta, ratio);
+            p->beta = rgb_mul(p->beta, rgb_scale(ratio, 1.0f / p->boost));
             p->r_u = rgb_mul(p->r_u, ratio);
             *which = i;
             return PATH_SCATTERED;
         }
-        x -= sigma;
+        x -= p->boost * sigma;
     }
     if (x < rgb_get(at->all_a, p->driver))
         return PATH_ENDED;
@@ -157,7 +165,8 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
 {
     float tau = rng_optical_depth(&p->random);
     do {
-        rgb majorant = path_majorant(s, w);
+        rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
+                                 p->boost);
         float driver = rgb_get(majorant, p->driver);
         *t = w->t;
         for (;;) {
@@ -183,6 +192,36 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
         }
     } while (walk_next(s, w));
     return PATH_THROUGH;
+}
+
+/* Scattering of all active media in the middle of the walk's piece. */
+HD float path_middle(const flat_scene *s, const path_state *p,
+                     const media_walk *w)
+{
+    vec3 x = vec3_mad(p->o, 0.5f * (w->t + w->t_end), p->d);
+    float sum = 0.0f;
+    for (int i = 0; i < w->count; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        if (w->part[i].bound.density > 0.0f)
+            sum += rgb_max(m->sigma_s) * medium_density(s, m, x);
+    }
+    return sum;
+}
+
+/* Thin media scatter few of the eye's rays: draw such events more often, up
+ * to about one a ray, by one look at each piece. Each then carries less, and
+ * what passes unscattered as much more as it comes less often: unbiased for
+ * any factor that only the ray decides. */
+HD float path_boost(const flat_scene *s, const path_state *p, float t1)
+{
+    const float enough = 0.7f, most = 4.0f;
+    media_walk w;
+    float tau = 0.0f;
+    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    do {
+        tau += path_middle(s, p, &w) * (w.t_end - w.t);
+    } while (tau < enough && walk_next(s, &w));
+    return hd_max(hd_min(enough / tau, most), 1.0f);
 }
 
 HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
@@ -216,6 +255,7 @@ HD int path_media(const flat_scene *s, path_state *p, float t1, float *t,
         return PATH_THROUGH;
     if (!path_walk_scatters(s, &w))
         return path_line(s, p, p->after.t, t1);
+    p->boost = p->straight ? path_boost(s, p, t1) : 1.0f;
     return path_track(s, p, &w, t, medium);
 }
 
@@ -285,7 +325,7 @@ HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
 {
     if (v->surface) {
         float cosine = vec3_dot(v->surface->ns, wi);
-        *pdf = fmaxf(cosine, 0.0f) * WARP_INV_PI;
+        *pdf = hd_max(cosine, 0.0f) * WARP_INV_PI;
         return rgb_scale(surface_matte(v->surface->material,
                                        v->surface->color,
                                        v->surface->opacity, cosine),
@@ -361,7 +401,7 @@ HD bool path_survives(path_state *p)
         return false;
     if (throughput >= 0.25f)
         return true;
-    float q = fmaxf(throughput * 4.0f, 0.05f);
+    float q = hd_max(throughput * 4.0f, 0.05f);
     if (!rng_chance(&p->random, q))
         return false;
     p->beta = rgb_scale(p->beta, 1.0f / q);
@@ -410,7 +450,7 @@ HD bool path_passes(path_state *p, const hit_point *h)
     float pass = rgb_max(h->pass), stay = h->opacity;
     /* A highlight stands on clear glass too. */
     if (surface_has_highlight(h->material))
-        stay = fmaxf(stay, 0.25f);
+        stay = hd_max(stay, 0.25f);
     if (!(pass > 0.0f))
         return false;
     if (!(stay > 0.0f)) {

@@ -50,7 +50,7 @@ HD float phase_rayleigh_sample(float u, float *plus)
 {
     float q = fabsf(4.0f * u - 2.0f);
     float t = fm_pow(q + sqrtf(q * q + 1.0f), 1.0f / 3.0f);
-    float c = fminf(t - 1.0f / t, 1.0f);
+    float c = hd_min(t - 1.0f / t, 1.0f);
     *plus = u < 0.5f ? 1.0f - c : 1.0f + c;
     return u < 0.5f ? 1.0f + c : 1.0f - c;
 }
@@ -61,7 +61,7 @@ HD float phase_mie_sample(float isotropic, float inverse, float u, float *plus)
 {
     float x = u < isotropic ? u / isotropic
             : fm_pow((u - isotropic) / (1.0f - isotropic), inverse);
-    x = fminf(x, 1.0f);
+    x = hd_min(x, 1.0f);
     *plus = 2.0f * x;
     return 2.0f * (1.0f - x);
 }

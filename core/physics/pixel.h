@@ -28,26 +28,28 @@ typedef struct {
     uint64_t rejected;
 } pixel_counters;
 
-/* Whether sample i also runs the straight line, which needs no noise cut, only
- * edges smoothed: all of the first 16, then every fourth. */
+/* The straight line needs no noise cut, only edges smoothed: it is run by all
+ * of the first samples, then by every eighth. */
+enum { PIXEL_LINES_FIRST = 8, PIXEL_LINES_EVERY = 8 };
+
 HD bool pixel_has_line(uint32_t i)
 {
-    return i < 16u || i % 4u == 0u;
+    return i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
 }
 
-/* Lines among the first n samples that fall to one half. */
-HD uint32_t pixel_lines(uint32_t n, int half)
-{
-    if (n <= 16u)
-        return (n + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t later = (n - 16u + 3u) / 4u;
-    return 8u + (later + (half == 0 ? 1u : 0u)) / 2u;
-}
-
-/* The half of a sample that runs the line: they alternate. */
+/* The half to which a sample's line counts: they alternate. */
 HD int pixel_line_half(uint32_t i)
 {
-    return (int)(i < 16u ? i & 1u : i / 4u & 1u);
+    return (int)(i < PIXEL_LINES_FIRST ? i & 1u : i / PIXEL_LINES_EVERY & 1u);
+}
+
+/* Lines of one half among the first n samples. */
+HD uint32_t pixel_lines(uint32_t n, int half)
+{
+    if (n <= PIXEL_LINES_FIRST)
+        return (n + (half == 0 ? 1u : 0u)) / 2u;
+    uint32_t all = (n - 1u) / PIXEL_LINES_EVERY;    /* from 8, 16, ... */
+    return PIXEL_LINES_FIRST / 2u + (all + (half == 1 ? 1u : 0u)) / 2u;
 }
 
 HD bool pixel_finite(rgb c)

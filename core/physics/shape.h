@@ -25,8 +25,8 @@ HD void shape_quadratic(float a, float b, float c, float discriminant,
     float root = sqrtf(discriminant);
     float q = b + (b >= 0.0f ? root : -root);
     float near = q != 0.0f ? c / q : 0.0f, far = q / a;
-    *t0 = fminf(near, far);
-    *t1 = fmaxf(near, far);
+    *t0 = hd_min(near, far);
+    *t1 = hd_max(near, far);
 }
 
 HD int shape_sphere_roots(vec3 o, vec3 d, float t[SHAPE_MAX_ROOTS])

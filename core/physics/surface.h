@@ -13,8 +13,8 @@
 HD int surface_checker(vec3 p)
 {
     const float shift = 1e-3f;
-    int x = (int)floorf(p.x + shift), y = (int)floorf(p.y + shift);
-    int z = (int)floorf(p.z + shift);
+    int x = hd_floor(p.x + shift), y = hd_floor(p.y + shift);
+    int z = hd_floor(p.z + shift);
     return (x ^ y ^ z) & 1;
 }
 

@@ -73,12 +73,12 @@ HD float vec3_get(vec3 a, int axis)
 
 HD vec3 vec3_min(vec3 a, vec3 b)
 {
-    return vec3_make(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z));
+    return vec3_make(hd_min(a.x, b.x), hd_min(a.y, b.y), hd_min(a.z, b.z));
 }
 
 HD vec3 vec3_max(vec3 a, vec3 b)
 {
-    return vec3_make(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z));
+    return vec3_make(hd_max(a.x, b.x), hd_max(a.y, b.y), hd_max(a.z, b.z));
 }
 
 HD rgb rgb_make(float r, float g, float b)
@@ -122,12 +122,12 @@ HD float rgb_get(rgb a, int channel)
 
 HD float rgb_max(rgb a)
 {
-    return fmaxf(a.r, fmaxf(a.g, a.b));
+    return hd_max(a.r, hd_max(a.g, a.b));
 }
 
 HD float rgb_min(rgb a)
 {
-    return fminf(a.r, fminf(a.g, a.b));
+    return hd_min(a.r, hd_min(a.g, a.b));
 }
 
 HD float rgb_mean(rgb a)

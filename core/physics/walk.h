@@ -49,7 +49,7 @@ HD float lattice_plane(const lattice_walk *w, int axis)
 
 HD float lattice_next(const lattice_walk *w)
 {
-    return fminf(fminf(w->next[0], fminf(w->next[1], w->next[2])), w->leave);
+    return hd_min(hd_min(w->next[0], hd_min(w->next[1], w->next[2])), w->leave);
 }
 
 HD void lattice_load(const flat_scene *s, lattice_walk *w)
@@ -75,12 +75,12 @@ HD void lattice_enter(const flat_scene *s, lattice_walk *w, float t)
     w->inside = 1;
     for (int axis = 0; axis < 3; axis++) {
         float x = vec3_get(w->o, axis) + t * vec3_get(w->d, axis);
-        int c = grid_floor(fminf(fmaxf(x, 0.0f), 1e9f));
+        int c = hd_floor(hd_max(x, 0.0f));
         w->cell[axis] = c < m->cells[axis] ? c : m->cells[axis] - 1;
         w->next[axis] = lattice_plane(w, axis);
     }
     lattice_load(s, w);
-    w->t_end = fmaxf(lattice_next(w), t);
+    w->t_end = hd_max(lattice_next(w), t);
 }
 
 /* Where the ray is inside the lattice's box. */
@@ -96,8 +96,8 @@ HD void lattice_clip(const flat_medium *m, lattice_walk *w)
             continue;
         }
         float a = (0.0f - o) / d, b = (size - o) / d;
-        enter = fmaxf(enter, fminf(a, b));
-        leave = fminf(leave, fmaxf(a, b));
+        enter = hd_max(enter, hd_min(a, b));
+        leave = hd_min(leave, hd_max(a, b));
     }
     bool hit = enter < leave;
     w->enter = hit ? enter : INFINITY;
@@ -147,14 +147,14 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
     }
     w->next[axis] = lattice_plane(w, axis);
     lattice_load(s, w);
-    w->t_end = fmaxf(lattice_next(w), t);
+    w->t_end = hd_max(lattice_next(w), t);
 }
 
 HD void walk_set_end(media_walk *w)
 {
     w->t_end = w->t_max;
     for (int i = 0; i < w->count; i++)
-        w->t_end = fminf(w->t_end, w->part[i].t_end);
+        w->t_end = hd_min(w->t_end, w->part[i].t_end);
 }
 
 HD void walk_add_interior(const flat_scene *s, media_walk *w, int interior,

@@ -62,7 +62,7 @@ HD vec3 warp_cosine_hemisphere(float u, float v)
 
 HD float warp_cosine_hemisphere_pdf(float cosine)
 {
-    return fmaxf(cosine, 0.0f) * WARP_INV_PI;
+    return hd_max(cosine, 0.0f) * WARP_INV_PI;
 }
 
 HD vec3 warp_sphere(float u, float v)
