@@ -159,6 +159,14 @@ HD int path_collide(path_state *p, const media_walk *w,
     return path_null(p, at, majorant);
 }
 
+/* How far tentative collisions outnumber the majorant's. With a boost they
+ * must leave room for nulls everywhere: these carry the weight of what is
+ * scattered too often. */
+HD float path_room(const path_state *p)
+{
+    return p->boost > 1.0f ? 2.0f * p->boost : 1.0f;
+}
+
 /* Delta tracking to t1. On PATH_SCATTERED, *t and *medium tell where. */
 HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
                   int *medium)
@@ -166,7 +174,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
     float tau = rng_optical_depth(&p->random);
     do {
         rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
-                                 p->boost);
+                                 path_room(p));
         float driver = rgb_get(majorant, p->driver);
         *t = w->t;
         for (;;) {
