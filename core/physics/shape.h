@@ -99,14 +99,41 @@ HD bool shape_tube(vec3 o, vec3 d, float t[SHAPE_MAX_ROOTS])
     return true;
 }
 
-HD int shape_cylinder_roots(const float *params, vec3 o, vec3 d,
-                            float t[SHAPE_MAX_ROOTS],
-                            int surface[SHAPE_MAX_ROOTS])
+/* Interval of the ray in x^2 + y^2 <= (r + k z)^2, on the nappe where
+ * r + k z >= 0; what lies on the other nappe may come too, beyond the apex. */
+HD bool shape_nappe(float r0, float k, vec3 o, vec3 d,
+                    float t[SHAPE_MAX_ROOTS])
 {
-    if (!shape_tube(o, d, t))
-        return 0;
+    float r = r0 + k * o.z, s = k * d.z, t0, t1;
+    float a = d.x * d.x + d.y * d.y - s * s;
+    float b = r * s - (o.x * d.x + o.y * d.y);
+    float c = o.x * o.x + o.y * o.y - r * r;
+    float discriminant = b * b - a * c;
+    t[0] = -INFINITY;
+    t[1] = INFINITY;
+    if (a == 0.0f) {
+        if (b != 0.0f)
+            t[b > 0.0f ? 0 : 1] = 0.5f * c / b;
+        return b != 0.0f || c <= 0.0f;
+    }
+    if (a > 0.0f && !(discriminant >= 0.0f))
+        return false;
+    shape_quadratic(a, b, c, fmaxf(discriminant, 0.0f), &t0, &t1);
+    if (a > 0.0f || s < 0.0f)
+        t[1] = a > 0.0f ? t1 : t0;
+    if (a > 0.0f || s > 0.0f)
+        t[0] = a > 0.0f ? t0 : t1;
+    return true;
+}
+
+/* The interval as roots: cut at the caps, or those of its ends that lie
+ * between them. */
+HD int shape_between_caps(bool capped, vec3 o, vec3 d,
+                          float t[SHAPE_MAX_ROOTS],
+                          int surface[SHAPE_MAX_ROOTS])
+{
     surface[0] = surface[1] = 0;
-    if (params[0] == 0.0f) {
+    if (capped) {
         if (!shape_slab(o.z, d.z, 0.0f, 1.0f, 1, t, surface) ||
             !(t[1] < INFINITY) || !(t[0] > -INFINITY))
             return 0;
@@ -116,78 +143,41 @@ HD int shape_cylinder_roots(const float *params, vec3 o, vec3 d,
         return 2;
     }
     int n = 0;
-    if (!(t[1] < INFINITY))
-        return 0;
     for (int i = 0; i < 2; i++) {
         float z = o.z + t[i] * d.z;
-        if (z >= 0.0f && z <= 1.0f) {
-            t[n] = t[i];
-            surface[n++] = SHAPE_SIDE;
-        }
+        if (z >= 0.0f && z <= 1.0f && fabsf(t[i]) < INFINITY)
+            t[n++] = t[i];
     }
     return n;
 }
 
-HD void shape_insert(float value, int face, int *n, float t[SHAPE_MAX_ROOTS],
-                     int surface[SHAPE_MAX_ROOTS])
+HD int shape_cylinder_roots(const float *params, vec3 o, vec3 d,
+                            float t[SHAPE_MAX_ROOTS],
+                            int surface[SHAPE_MAX_ROOTS])
 {
-    int i = (*n)++;
-    for (; i > 0 && t[i - 1] > value; i--) {
-        t[i] = t[i - 1];
-        surface[i] = surface[i - 1];
-    }
-    t[i] = value;
-    surface[i] = face;
+    if (!shape_tube(o, d, t))
+        return 0;
+    return shape_between_caps(params[0] == 0.0f, o, d, t, surface);
 }
 
-HD void shape_cap(float z, float radius, int face, vec3 o, vec3 d, int *n,
-                  float t[SHAPE_MAX_ROOTS], int surface[SHAPE_MAX_ROOTS])
-{
-    if (d.z == 0.0f || radius <= 0.0f)
-        return;
-    float at = (z - o.z) / d.z;
-    float x = o.x + at * d.x, y = o.y + at * d.y;
-    if (x * x + y * y <= radius * radius)
-        shape_insert(at, face, n, t, surface);
-}
-
-HD void shape_cone_side(float at, vec3 o, vec3 d, int *n,
-                        float t[SHAPE_MAX_ROOTS],
-                        int surface[SHAPE_MAX_ROOTS])
-{
-    float z = o.z + at * d.z;
-    if (z > 0.0f && z < 1.0f)
-        shape_insert(at, SHAPE_SIDE, n, t, surface);
-}
-
+/* Reckoned from the ray's point nearest to the middle of the axis, because
+ * the cone's discriminant has no form that stands a distant origin. */
 HD int shape_cone_roots(const float *params, vec3 o, vec3 d,
                         float t[SHAPE_MAX_ROOTS],
                         int surface[SHAPE_MAX_ROOTS])
 {
-    /* |xy|^2 = (r + k z)^2 along the ray: a t^2 - 2 b t + c. */
-    float k = params[1] - params[0], r = params[0] + k * o.z, s = k * d.z;
-    float a = d.x * d.x + d.y * d.y - s * s;
-    float b = -(o.x * d.x + o.y * d.y - r * s);
-    float c = o.x * o.x + o.y * o.y - r * r;
-    float discriminant = b * b - a * c, t0, t1;
-    int n = 0;
-    if (a != 0.0f && discriminant >= 0.0f) {
-        shape_quadratic(a, b, c, discriminant, &t0, &t1);
-        shape_cone_side(t0, o, d, &n, t, surface);
-        shape_cone_side(t1, o, d, &n, t, surface);
-    } else if (a == 0.0f && b != 0.0f) {
-        shape_cone_side(0.5f * c / b, o, d, &n, t, surface);
-    }
-    if (params[2] != 0.0f)
-        return n;
-    shape_cap(0.0f, params[0], SHAPE_BOTTOM, o, d, &n, t, surface);
-    shape_cap(1.0f, params[1], SHAPE_TOP, o, d, &n, t, surface);
-    if (n < 2)
+    vec3 to_middle = vec3_sub(vec3_make(0.0f, 0.0f, 0.5f), o);
+    float a = vec3_dot(d, d);
+    if (!(a > 0.0f))
         return 0;
-    /* More than two come of an edge found twice: the outer two stand. */
-    t[1] = t[n - 1];
-    surface[1] = surface[n - 1];
-    return 2;
+    float shift = vec3_dot(to_middle, d) / a;
+    vec3 near = vec3_mad(o, shift, d);
+    if (!shape_nappe(params[0], params[1] - params[0], near, d, t))
+        return 0;
+    int n = shape_between_caps(params[2] == 0.0f, near, d, t, surface);
+    t[0] += shift;
+    t[1] += shift;
+    return n;
 }
 
 HD int shape_flat_roots(bool disc, const float *params, vec3 o, vec3 d,
@@ -239,7 +229,10 @@ HD vec3 shape_normal(int kind, const float *params, vec3 p, int surface)
         if (surface != SHAPE_SIDE)
             return vec3_make(0.0f, 0.0f, surface == SHAPE_TOP ? 1.0f : -1.0f);
         float k = kind == SHAPE_CONE ? params[1] - params[0] : 0.0f;
-        return vec3_make(p.x, p.y, -k * sqrtf(p.x * p.x + p.y * p.y));
+        float rho = sqrtf(p.x * p.x + p.y * p.y);
+        if (rho == 0.0f)                            /* the apex of a cone */
+            return vec3_make(0.0f, 0.0f, k > 0.0f ? -1.0f : 1.0f);
+        return vec3_make(p.x, p.y, -k * rho);
     }
     default:
         return vec3_make(0.0f, 0.0f, 1.0f);
