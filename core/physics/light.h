@@ -20,13 +20,14 @@ typedef struct {
     rgb color;              /* C at this distance and angle                */
 } light_sample;
 
-/* POV-Ray's cone: full inside the radius, a smooth cubic down to nothing at
- * the falloff, times cos^tightness. */
+/* POV-Ray's cone: full inside the radius, a smooth cubic of the cosine down to
+ * nothing at the falloff, times cos^tightness; nothing behind. A radius beyond
+ * the falloff wins. Measured by tests/oracle/lights.py. */
 HD float light_cone(const flat_light *l, float cosine)
 {
     if (!l->spot)
         return 1.0f;
-    if (!(cosine > l->cos_falloff) || cosine <= 0.0f)
+    if (!(cosine > fminf(l->cos_falloff, l->cos_radius)) || cosine <= 0.0f)
         return 0.0f;
     float tight = l->tightness > 0.0f ? fm_pow(cosine, l->tightness) : 1.0f;
     if (cosine >= l->cos_radius)

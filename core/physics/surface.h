@@ -59,7 +59,21 @@ HD rgb surface_matte(const flat_material *m, rgb color, float opacity,
     return rgb_scale(color, m->diffuse * lobe * opacity);
 }
 
-/* Radiance per light C from direction wi. */
+/* Colour of a highlight: a metal's is its own, and the light's at grazing
+ * incidence, by the curve of Strauss (1990), (1/(x-k)^2 - 1/k^2) over its value
+ * at 1, with k = 1.12 and x the angle of incidence in right angles. */
+HD rgb surface_tint(const flat_material *m, rgb color, float cosine)
+{
+    if (m->metallic == 0.0f)
+        return rgb_gray(1.0f);
+    float x = fm_acos(fminf(cosine, 1.0f)) * 0.636619772f - 1.12f;
+    float curve = 0.0145672258f / (x * x) - 0.0116129032f;
+    float own = m->metallic * (1.0f - curve);
+    return rgb_add(rgb_gray(1.0f - own), rgb_scale(color, own));
+}
+
+/* Radiance per light C from direction wi. Opacity dims the matte part only:
+ * highlights stand on clear glass too. Measured by tests/oracle/finish.py. */
 HD rgb surface_light(const flat_material *m, rgb color, float opacity, vec3 n,
                      vec3 wo, vec3 wi)
 {
@@ -68,8 +82,7 @@ HD rgb surface_light(const flat_material *m, rgb color, float opacity, vec3 n,
     if (!(cosine > 0.0f) || !surface_has_highlight(m))
         return out;
     float highlight = surface_highlight(m, n, wo, wi);
-    rgb tint = rgb_add(rgb_gray(1.0f - m->metallic),
-                       rgb_scale(color, m->metallic));
+    rgb tint = surface_tint(m, color, cosine);
     return rgb_add(out, rgb_scale(tint, highlight));
 }
 
