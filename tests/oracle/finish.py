@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""POV-Ray's finishes, measured against core/physics/surface.h: finish.py
-[PROGRAM]
+"""POV-Ray's finishes, measured against core/physics/surface.h.
 
-A plane, tilted against an orthographic camera, is lit by parallel light from
-three directions at once, one for each colour channel. Expected values are the
-formulae of surface.h in double. With --rows, prints rows for
-tests/unit/test_surface.c instead.
+A plane, tilted against an orthographic camera, is lit from far away in three
+directions at once, one for each colour channel. Expected values are the
+formulae of surface.h in double. The rows of tests/unit/test_surface.c are
+some of those that this prints.
 """
 import sys
 from math import acos, cos, pi, radians, sin, sqrt
@@ -73,9 +72,8 @@ def scene(finish, pigment, normal, lights):
     for i, w in enumerate(lights):
         color = [0, 0, 0]
         color[i] = 1
-        sources += ("light_source {{ <{:.9f}, {:.9f}, {:.9f}>*1000"
-                    " rgb <{}, {}, {}> parallel point_at 0 }}\n"
-                    ).format(*w, *color)
+        sources += ("light_source {{ <{:.9f}, {:.9f}, {:.9f}>*1e6"
+                    " rgb <{}, {}, {}> }}\n").format(*w, *color)
     return f"""#version 3.7;
 global_settings {{ assumed_gamma 1 }}
 camera {{ orthographic location -10*z right 0.001*x up 0.001*y direction z }}
@@ -97,21 +95,16 @@ def cases():
 
 
 def main():
-    arguments = [a for a in sys.argv[1:] if a != "--rows"]
-    program = arguments[0] if arguments else "povray"
     table = Table("radiance", 2e-5)
     for finish, pigment, tilt, angles in cases():
         normal = direction(tilt, 0)
         lights = [direction(a + tilt, 10 * (i + 1))
                   for i, a in enumerate(angles)]
-        pixel = render(scene(finish, pigment, normal, lights),
-                       program=program)[1][1]
+        pixel = render(scene(finish, pigment, normal, lights))[1][1]
         for i, value in enumerate(pixel):
-            name = f"{finish} {pigment[:5]} {tilt} {angles[i]}"
+            name = (f"{finish}, opacity {OPACITY[pigment]}: {tilt}"
+                    f" {angles[i] + tilt} {10 * (i + 1)}")
             table.row(name, value, expected(finish, pigment, normal, lights[i]))
-            if "--rows" in sys.argv:
-                print("ROW", finish, OPACITY[pigment], tilt, angles[i] + tilt,
-                      10 * (i + 1), f"{value:.5f}")
     return table.failed != 0
 
 

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""POV-Ray's spot cones and fading, measured against core/physics/light.h:
-lights.py [PROGRAM]
+"""POV-Ray's spot cones and fading, measured against core/physics/light.h.
 
 A light 10 above a plane that reflects the same at any angle (brilliance 0),
 seen in a row of pixels from below the light outward. Prints the largest
@@ -32,7 +31,7 @@ def fade(distance, power, x):
     return 2 / (1 + (hypot(HEIGHT, x) / distance) ** power)
 
 
-def row(items, program):
+def row(items):
     scene = f"""#version 3.7;
 global_settings {{ assumed_gamma 1 }}
 camera {{
@@ -44,21 +43,20 @@ plane {{
     -z, 0 pigment {{ rgb 1 }} finish {{ ambient 0 diffuse 1 brilliance 0 }}
 }}
 """
-    pixels = render(scene, PIXELS, 1, program)[0]
+    pixels = render(scene, PIXELS, 1)[0]
     return [(REACH * (i + 0.5) / PIXELS, p[0]) for i, p in enumerate(pixels)]
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "povray"
     table = Table("largest difference along a row", 2e-5)
     for s in SPOTS:
         items = "spotlight point_at 0 radius {} falloff {} tightness {}"
         worst = max(abs(v - spot(*s, x))
-                    for x, v in row(items.format(*s), program))
+                    for x, v in row(items.format(*s)))
         table.row(f"radius, falloff, tightness {s}", worst, 0)
     for f in FADES:
         items = "fade_distance {} fade_power {}".format(*f)
-        worst = max(abs(v - fade(*f, x)) for x, v in row(items, program))
+        worst = max(abs(v - fade(*f, x)) for x, v in row(items))
         table.row(f"fade distance, power {f}", worst, 0)
     return table.failed != 0
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What POV-Ray's media do per unit length, measured: media.py [PROGRAM]
+"""What POV-Ray's media do per unit length, measured.
 
 A box of length 1 is seen straight on. Emission is a radiance per length,
 absorption and extinction times scattering are the coefficients of exp(-tau),
@@ -30,8 +30,8 @@ box {{
 """
 
 
-def report(table, name, text, expected, program):
-    pixel = render(text, program=program)[1][1]
+def report(table, name, text, expected):
+    pixel = render(text)[1][1]
     for c, value, truth in zip(COLOR, pixel, expected):
         table.row(f"{name}, {c}", value, truth)
 
@@ -42,25 +42,24 @@ def in_scattered(c, extinction):
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "povray"
     color = "rgb <{}, {}, {}>".format(*COLOR)
     white = "background { rgb 1 }"
-    lamp = f"light_source {{ -100*z rgb {LIGHT} parallel point_at 0 }}"
+    lamp = f"light_source {{ -1e6*z rgb {LIGHT} }}"
     table = Table("radiance", 1e-3)
     report(table, "emission over 0.4", scene("emission " + color, length=0.4),
-           [0.4 * c for c in COLOR], program)
+           [0.4 * c for c in COLOR])
     report(table, "absorption", scene("absorption " + color, white),
-           [exp(-c) for c in COLOR], program)
+           [exp(-c) for c in COLOR])
     report(table, "emission 1 with absorption",
            scene("emission rgb 1 absorption " + color),
-           [(1 - exp(-c)) / c for c in COLOR], program)
+           [(1 - exp(-c)) / c for c in COLOR])
     for e in EXTINCTIONS:
         scattering = f"scattering {{ 1, {color} extinction {e} }}"
         report(table, f"through extinction {e}", scene(scattering, white),
-               [exp(-c * e) for c in COLOR], program)
+               [exp(-c * e) for c in COLOR])
         report(table, f"in-scattered, extinction {e}",
                scene(scattering, lamp),
-               [in_scattered(c, e) for c in COLOR], program)
+               [in_scattered(c, e) for c in COLOR])
     return table.failed != 0
 
 

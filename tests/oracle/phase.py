@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""POV-Ray's phase functions, measured: phase.py [PROGRAM]
+"""POV-Ray's phase functions, measured.
 
 A thin slab (optical depth 1e-6) is seen straight on, through an orthographic
-camera, and lit by parallel light at a known angle; each colour channel has an
+camera, and lit from far away at a known angle; each colour channel has an
 angle of its own. What is printed is the in-scattered radiance over
 sigma_s C length 4 pi p, p the normalised function of core/physics/phase.h:
 1 for types 1 and 5, phase_pov_scale for the others.
@@ -28,14 +28,13 @@ def phase_4pi(kind, g, c):
 
 
 def light(kind, g, angle, channel):
-    """Parallel light that must turn by `angle` to reach the camera."""
+    """Light that must turn by `angle` to reach the camera."""
     a = radians(angle)
     color = [0, 0, 0]
     color[channel] = TARGET / (SIGMA * LENGTH * SCALE[kind]
                                * phase_4pi(kind, g, cos(a)))
-    return (f"light_source {{ <{-1e3 * sin(a):.12f}, 0, {1e3 * cos(a):.12f}>"
-            f" rgb <{color[0]:.9g}, {color[1]:.9g}, {color[2]:.9g}>"
-            " parallel point_at 0 }\n")
+    return (f"light_source {{ <{-1e6 * sin(a):.9f}, 0, {1e6 * cos(a):.9f}>"
+            f" rgb <{color[0]:.9g}, {color[1]:.9g}, {color[2]:.9g}> }}\n")
 
 
 def scene(kind, g, angles):
@@ -60,12 +59,11 @@ box {{
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "povray"
     table = Table("radiance over sigma_s C length 4 pi p", 5e-5)
     for kind in SCALE:
         for g in ECCENTRICITIES if kind == 5 else (0,):
             for angles in ANGLES:
-                pixel = render(scene(kind, g, angles), program=program)[1][1]
+                pixel = render(scene(kind, g, angles))[1][1]
                 for angle, value in zip(angles, pixel):
                     table.row(f"type {kind}, g {g}, {angle} degrees",
                               value / TARGET * SCALE[kind], SCALE[kind])
