@@ -27,7 +27,7 @@ HD float light_cone(const flat_light *l, float cosine)
 {
     if (!l->spot)
         return 1.0f;
-    if (!(cosine > fminf(l->cos_falloff, l->cos_radius)) || cosine <= 0.0f)
+    if (!(cosine > hd_min(l->cos_falloff, l->cos_radius)) || cosine <= 0.0f)
         return 0.0f;
     float tight = l->tightness > 0.0f ? fm_pow(cosine, l->tightness) : 1.0f;
     if (cosine >= l->cos_radius)

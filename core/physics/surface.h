@@ -66,7 +66,7 @@ HD rgb surface_tint(const flat_material *m, rgb color, float cosine)
 {
     if (m->metallic == 0.0f)
         return rgb_gray(1.0f);
-    float x = fm_acos(fminf(cosine, 1.0f)) * 0.636619772f - 1.12f;
+    float x = fm_acos(hd_min(cosine, 1.0f)) * 0.636619772f - 1.12f;
     float curve = 0.0145672258f / (x * x) - 0.0116129032f;
     float own = m->metallic * (1.0f - curve);
     return rgb_add(rgb_gray(1.0f - own), rgb_scale(color, own));
