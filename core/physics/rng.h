@@ -115,9 +115,10 @@ HD float rng_depth_of(uint32_t x, uint32_t y)
     return near ? -fm_log1p(-h) : -fm_log(h);
 }
 
-/* Optical depth to the next collision, density exp(-tau): good to 1e-5 of
- * P(tau < t) and of P(tau > t) for every t from 1e-14 to 40. A uniform float
- * would end at 16.6 and hit a medium of depth 1e-7 a fifth too often. */
+/* Optical depth to the next collision, density exp(-tau). P(tau < t) and
+ * P(tau > t) are right to 1e-5 of themselves or to 2^-64, at every t. A
+ * uniform float would end at 16.6 and hit a medium of depth 1e-7 a fifth too
+ * often. */
 HD float rng_optical_depth(rng *r)
 {
     uint32_t x = rng_u32(r);
