@@ -197,13 +197,19 @@ static bool begin_condition(struct expander *expander, enum use use,
     return pending;
 }
 
-static bool begin_range(struct expander *expander, uint32_t opener)
+static bool begin_clause(struct expander *expander, uint32_t index)
 {
-    struct location at = token_location(token_at(expander, opener));
-    struct pending *pending = expand_need(expander, '(')
-        ? expand_begin(expander, TOK_MODE_FLOATS, USE_RANGE, at) : NULL;
+    const struct token *token = token_at(expander, index);
+    struct location at = token_location(token);
+    bool range = token->kind == TOK_HASH_RANGE;
+    if (range && !expand_need(expander, '(')) {
+        return false;
+    }
+    struct pending *pending = range
+        ? expand_begin(expander, TOK_MODE_FLOATS, USE_RANGE, at)
+        : expand_begin(expander, TOK_MODE_CONDITION, USE_CASE, at);
     if (pending) {
-        pending->branch.opener = opener;
+        pending->branch.opener = index;
     }
     return pending;
 }
@@ -218,9 +224,8 @@ static bool skip(struct expander *expander, uint32_t directive)
     case TOK_HASH_ELSEIF:
         return begin_condition(expander, USE_ELSEIF, next);
     case TOK_HASH_CASE:
-        return begin_condition(expander, USE_CASE, next);
     case TOK_HASH_RANGE:
-        return begin_range(expander, next);
+        return begin_clause(expander, next);
     case TOK_HASH_END:
         leave(expander, token->block.pair);
         return true;
@@ -247,6 +252,17 @@ static bool finish_switch(struct expander *expander, uint32_t opener,
     return open_loop(expander, &loop);
 }
 
+/* Runs a clause of the innermost #switch, or tries the next one. After one
+ * that was run, the following are run too, whatever they say: so does POV-Ray,
+ * though not its manual (3.3.2.6.4). */
+static bool take_clause(struct expander *expander,
+                        const struct pending *pending, bool fits)
+{
+    struct loop *loop = innermost(expander);
+    loop->taken = loop->taken || fits;
+    return choose(expander, pending->branch.opener, loop->taken);
+}
+
 static bool finish_range(struct expander *expander,
                          const struct pending *pending)
 {
@@ -255,8 +271,8 @@ static bool finish_range(struct expander *expander,
         return false;
     }
     double value = innermost(expander)->value;
-    return choose(expander, pending->branch.opener,
-                  value >= bound[0] - CLOSE && value <= bound[1] + CLOSE);
+    bool inside = value >= bound[0] - CLOSE && value <= bound[1] + CLOSE;
+    return take_clause(expander, pending, inside);
 }
 
 static bool finish_condition(struct expander *expander,
@@ -273,7 +289,7 @@ static bool finish_condition(struct expander *expander,
         return finish_switch(expander, opener, value);
     case USE_CASE:
         value -= innermost(expander)->value;
-        return choose(expander, opener, !value_is_true(value));
+        return take_clause(expander, pending, !value_is_true(value));
     case USE_WHILE:
         return value_is_true(value) ? count_iteration(expander, opener)
             : (leave(expander, opener), true);
@@ -367,9 +383,8 @@ bool branch_run(struct expander *expander, const struct token *token)
     case TOK_HASH_ELSEIF:
         return run_else(expander, token);
     case TOK_HASH_CASE:
-        return begin_condition(expander, USE_CASE, index);
     case TOK_HASH_RANGE:
-        return begin_range(expander, index);
+        return begin_clause(expander, index);
     case TOK_HASH_BREAK:
         return run_break(expander, token);
     case TOK_HASH_END:

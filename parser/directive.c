@@ -3,8 +3,6 @@
 #include "parser/report.h"
 #include <string.h>
 
-/* POV-Ray 3.5 and later insist on the semicolon. */
-static const double STRICT_VERSION = 3.5;
 
 /* ---- #declare, #local, #undef ------------------------------------------ */
 
@@ -59,6 +57,12 @@ bool directive_declare_item(struct expander *expander, struct value *item,
     return begin_value(expander, NULL, item, false, at);
 }
 
+/* As POV-Ray does from 3.5 on. */
+bool directive_strict(const struct expander *expander)
+{
+    return expander->parser->version >= 3.5;
+}
+
 static bool check_semicolon(struct expander *expander,
                             const struct value *value)
 {
@@ -66,7 +70,7 @@ static bool check_semicolon(struct expander *expander,
     if (expand_take(expander, ';') || value->kind != VALUE_NUMBER) {
         return true;
     }
-    if (parser->version < STRICT_VERSION) {
+    if (!directive_strict(expander)) {
         parser_warn(parser, expander->place, "no ';' after this value");
         return true;
     }

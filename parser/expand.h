@@ -23,6 +23,7 @@ struct loop {
     struct name *name;          /* #for                                    */
     double end, step;           /* #for                                    */
     double value;               /* #switch                                 */
+    bool taken;                 /* #switch: a clause was run               */
 };
 
 struct macro {
@@ -162,6 +163,8 @@ bool expand_return(struct expander *expander, size_t frames,
 bool directive_run(struct expander *expander, const struct token *token);
 bool directive_finish(struct expander *expander,
                       const struct pending *pending);
+/* Whether #declare needs its ';'. */
+bool directive_strict(const struct expander *expander);
 bool directive_declare_item(struct expander *expander, struct value *item,
                             struct location at);
 

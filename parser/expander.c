@@ -1,7 +1,7 @@
 #include "parser/expand.h"
 #include "lib/timer.h"
 #include "parser/report.h"
-#include <string.h>
+#include <ctype.h>
 
 /* Values in values; each holds a parser of its own. */
 enum { PENDING_DEPTH = 20000 };
@@ -168,6 +168,11 @@ static bool within_limits(struct expander *expander, struct location at)
                            "more than %llu tokens", (unsigned long long)
                            parser->limits.tokens);
     }
+    const struct parse_input *in = parser->in;
+    if (in->stopped && in->stopped(in->user)) {
+        return parser_fail(parser, BRUME_STOPPED, at, NULL, "stopped while "
+                           "reading the scene");
+    }
     if (expander->deadline > 0 && timer_seconds() > expander->deadline) {
         return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "reading the "
                            "scene takes longer than %g s",
@@ -315,14 +320,26 @@ bool expand_need(struct expander *expander, int kind)
 struct name *expand_need_name(struct expander *expander)
 {
     struct token *token = expand_peek(expander);
-    if (!expand_take(expander, TOK_IDENTIFIER)) {
-        unexpected(expander, "a name");
-        return NULL;
+    if (expand_take(expander, TOK_IDENTIFIER)) {
+        return token->name;
     }
-    return token->name;
+    const char *word = report_spelling(expander->parser,
+                                       token_location(token));
+    if (isalpha((unsigned char)*word) && token->kind != TOK_END) {
+        parser_error(expander->parser, token_location(token),
+                     "expected a name, but '%s' is a reserved word", word);
+    } else {
+        unexpected(expander, "a name");
+    }
+    return NULL;
 }
 
 /* ---- where a value ends ------------------------------------------------ */
+
+static bool is_directive(int kind)
+{
+    return kind >= TOK_HASH_IF && kind <= TOK_HASH_ERROR;
+}
 
 static bool accepts(const struct pending *pending, int kind)
 {
@@ -336,13 +353,14 @@ static bool goes_on(const struct pending *pending)
 }
 
 /* A directive ends a value that is complete, unless it belongs to it: a block
- * that a number holds, as in `3 #if (A) + 1 #end`. */
+ * that a number holds, as in `3 #if (A) + 1 #end`. Where the ';' may be left
+ * out, a block cannot belong to a complete number. */
 static bool directive_ends(const struct expander *expander,
                            const struct pending *pending,
                            const struct token *token)
 {
     if (block_opens(token->kind) && token->kind != TOK_HASH_MACRO) {
-        return !goes_on(pending);
+        return !directive_strict(expander) || !goes_on(pending);
     }
     switch (token->kind) {
     case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
@@ -358,9 +376,6 @@ static bool name_fits(const struct pending *pending,
                       const struct token *token)
 {
     const struct value *value = symbols_find(token->name);
-    if (value && value->kind == VALUE_MACRO) {
-        return goes_on(pending);
-    }
     return value ? accepts(pending, kind_of(value))
         : token->name->keyword
         && accepts(pending, token->name->keyword->kind);
@@ -372,7 +387,7 @@ static bool value_ends(const struct expander *expander,
 {
     const struct token *token = expand_peek(expander);
     int kind = token->kind;
-    bool directive = kind >= TOK_HASH_IF && kind <= TOK_HASH_ERROR;
+    bool directive = is_directive(kind);
     if (expander->held) {
         return !accepts(pending, kind_of(&expander->hold_value))
             && accepts(pending, TOK_END);
@@ -435,7 +450,7 @@ static bool run_token(struct expander *expander)
         return item_defined(expander, ITEM_DEFINED, 0,
                             token_location(token));
     default:
-        return token->kind >= TOK_HASH_IF && token->kind <= TOK_HASH_ERROR
+        return is_directive(token->kind)
             ? directive_run(expander, token)
             : push_word(expander, token->kind, token);
     }
@@ -464,16 +479,34 @@ static void release(struct expander *expander)
     }
 }
 
+/* The scene's text, and on top of it the one that the user wants read before
+ * (+HI). */
+static bool enter_scene(struct expander *expander)
+{
+    struct parser *parser = expander->parser;
+    struct frame scene = {.source = source_open_scene(parser)};
+    if (!scene.source || !expand_enter(expander, &scene)
+        || !expand_begin(expander, TOK_MODE_SCENE, USE_NONE,
+                         (struct location){0})) {
+        return false;
+    }
+    if (!parser->in->header) {
+        return true;
+    }
+    struct frame header = {.source = source_open_path(
+        parser, (struct location){0}, parser->in->header)};
+    return header.source
+        && (symbols_enter(&parser->symbols) || report_no_memory(parser))
+        && expand_enter(expander, &header);
+}
+
 bool expander_run(struct parser *parser)
 {
     struct expander expander = {.parser = parser};
     double seconds = parser->limits.seconds;
     expander.deadline = seconds > 0 ? timer_seconds() + seconds : 0;
     parser->expander = &expander;
-    struct frame frame = {.source = source_open_scene(parser)};
-    bool going = frame.source && expand_enter(&expander, &frame)
-        && expand_begin(&expander, TOK_MODE_SCENE, USE_NONE,
-                        (struct location){0});
+    bool going = enter_scene(&expander);
     while (going && expander.pendings > 0) {
         going = step(&expander);
     }

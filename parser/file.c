@@ -15,6 +15,7 @@ struct search {
     struct parser *parser;
     struct string name;
     enum parser_purpose purpose;
+    bool exact;                 /* no extension is added                   */
     const char *found;
     const char *denied;         /* the first that is there but off limits  */
     char tried[600];
@@ -119,7 +120,8 @@ static void try_path(struct search *search, const char *folder,
 static void try_folder(struct search *search, const char *folder)
 {
     const char *last = strrchr(search->name.text, '/');
-    bool plain = !strchr(last ? last : search->name.text, '.');
+    bool plain = !search->exact
+        && !strchr(last ? last : search->name.text, '.');
     if (!search->found) {
         try_path(search, folder, "");
     }
@@ -196,7 +198,7 @@ bool parser_file_exists(struct parser *parser, struct location at,
                         struct string name)
 {
     struct search search = {.parser = parser, .name = name,
-                            .purpose = PARSER_TEXT};
+                            .purpose = PARSER_TEXT, .exact = true};
     if (name_is_sound(name)) {
         try_all(&search, text_folder(parser, at.source));
     }

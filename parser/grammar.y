@@ -99,6 +99,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token FILTER "'filter'" TRANSMIT "'transmit'"
 %token <name> RGB "color keyword"
 
+%token ';'
 %token LESS_EQUAL "'<='" GREATER_EQUAL "'>='" NOT_EQUAL "'!='"
 
 /* An operand ends only where no operator follows: LOW is below them all. */
@@ -315,6 +316,8 @@ size:
 
 list:
     '{' items '}'
+        { $$ = eval_list(parser, $2); }
+  | '{' items ',' '}'
         { $$ = eval_list(parser, $2); }
   ;
 

@@ -106,8 +106,10 @@ bool item_finish(struct expander *expander, const struct pending *pending)
 bool item_defined(struct expander *expander, enum item_use use,
                   uint32_t opener, struct location at)
 {
-    struct name *name = expand_need(expander, '(')
-        ? expand_need_name(expander) : NULL;
+    if (!expand_need(expander, '(')) {
+        return false;
+    }
+    struct name *name = expand_need_name(expander);
     if (!name) {
         return false;
     }

@@ -1,6 +1,7 @@
 /* macro.c - macros: their definition, and calls with arguments. */
 #include "parser/expand.h"
 #include "parser/report.h"
+#include <stdio.h>
 
 /* ---- definition -------------------------------------------------------- */
 
@@ -152,6 +153,16 @@ static bool bind(struct expander *expander, const struct call *call)
     return true;
 }
 
+static bool wrong_count(struct expander *expander, const struct call *call,
+                        const char *given)
+{
+    int wanted = call->macro->parameters;
+    return parser_error(expander->parser, call->at,
+                        "macro '%.40s' takes %d argument%s, %s given",
+                        call->macro->name->text, wanted,
+                        wanted == 1 ? "" : "s", given);
+}
+
 static bool enter(struct expander *expander)
 {
     struct parser *parser = expander->parser;
@@ -159,9 +170,9 @@ static bool enter(struct expander *expander)
     struct macro *macro = call.macro;
     int most = parser->limits.macro_depth;
     if (call.count != macro->parameters) {
-        return parser_error(parser, call.at, "macro '%.40s' takes %d "
-                            "arguments, %d given", macro->name->text,
-                            macro->parameters, call.count);
+        char given[16];
+        snprintf(given, sizeof given, "%d", call.count);
+        return wrong_count(expander, &call, given);
     }
     if (expander->frames - expander->texts >= (size_t)most) {
         return parser_fail(parser, BRUME_ERR_LIMIT, call.at, NULL,
@@ -235,14 +246,13 @@ static bool read_arguments(struct expander *expander)
         if (expand_take(expander, ')')) {
             return enter(expander);
         }
+        if (call->count >= call->macro->parameters) {
+            return expand_peek(expander)->kind == ','
+                ? wrong_count(expander, call, "more are")
+                : expand_need(expander, ')');
+        }
         if (call->count > 0) {
             expand_take(expander, ',');
-        }
-        if (call->count >= call->macro->parameters) {
-            return parser_error(expander->parser, call->at,
-                                "macro '%.40s' takes %d arguments, more are "
-                                "given", call->macro->name->text,
-                                call->macro->parameters);
         }
         if (seeks_item(expander)) {
             const struct token *token = expand_peek(expander);

@@ -37,6 +37,7 @@ struct parser {
     double version;                 /* of #version                         */
     struct builder *builder;
     bool failed;                    /* an error was reported: stop         */
+    struct location warned[64];     /* offset + 1, by offset               */
 };
 
 /* Report at a place of the scene, with its line, the trace of includes and

@@ -104,10 +104,25 @@ bool parser_fail(struct parser *parser, enum brume_code code,
     return fail(parser, code, at, hint, text);
 }
 
+/* Whether this place was warned of lately: once is enough for a loop. */
+static bool warned(struct parser *parser, struct location at)
+{
+    enum { SLOTS = sizeof parser->warned / sizeof *parser->warned };
+    struct location *slot = &parser->warned[at.offset % SLOTS];
+    if (slot->offset == at.offset + 1 && slot->source == at.source) {
+        return true;
+    }
+    *slot = (struct location){at.offset + 1, at.source};
+    return false;
+}
+
 void parser_warn(struct parser *parser, struct location at,
                  const char *format, ...)
 {
     char text[TEXT];
+    if (warned(parser, at)) {
+        return;
+    }
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
@@ -248,7 +263,8 @@ static void write_expected(char *text, size_t room, const int *expected,
         name[names++] = number ? "a number" : "a string";
     }
     for (int i = 0; i < count && names <= NAMED; i++) {
-        if (!(continues_value(expected[i]) && !number)
+        if (expected[i] != TOK_END
+            && !(continues_value(expected[i]) && !number)
             && !((number || string) && begins_value(expected[i]))) {
             name[names++] = grammar_token_name(expected[i]);
         }
@@ -271,7 +287,8 @@ static void write_found(struct parser *parser, char *text, size_t room,
     if (found == TOK_END || name[0] == '\'') {
         snprintf(text, room, "%s", name);
     } else {
-        snprintf(text, room, "%s '%s'", name, spelled);
+        const char *quote = *spelled == '"' ? "" : "'";
+        snprintf(text, room, "%s %s%s%s", name, quote, spelled, quote);
     }
 }
 
@@ -308,11 +325,24 @@ void report_undeclared(struct parser *parser, struct location at,
                 "undeclared identifier '%s'", report_spelling(parser, at));
 }
 
+static bool is_directive_word(const struct name *name)
+{
+    for (int i = 0; i < directive_count; i++) {
+        if (strcmp(directive_table[i].word, name->text) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void report_bad(struct parser *parser, const struct token *token)
 {
     struct location at = token_location(token);
     if (token->kind == TOK_BAD) {
         parser_error(parser, at, "%s", token->error);
+    } else if (is_directive_word(token->name)) {
+        parser_error(parser, at, "'%s' is a directive: write '#%s'",
+                     token->name->text, token->name->text);
     } else {
         parser_error(parser, at, "'%s' is not supported yet",
                      report_spelling(parser, at));

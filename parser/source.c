@@ -171,17 +171,11 @@ static const char *resolve(struct parser *parser, const char *path)
 struct source *source_open_scene(struct parser *parser)
 {
     struct location nowhere = {0, UINT32_MAX};
-    const char *path = parser->in->path;
-    struct source *source = add(parser, nowhere, path);
-    if (!source) {
-        return NULL;
+    if (!parser->in->text) {
+        return source_open_path(parser, nowhere, parser->in->path);
     }
-    if (parser->in->text) {
-        return copy_text(parser, source)
-            ? finish(parser, nowhere, source) : NULL;
-    }
-    source->real = resolve(parser, path);
-    return read_file(parser, nowhere, source)
+    struct source *source = add(parser, nowhere, parser->in->path);
+    return source && copy_text(parser, source)
         ? finish(parser, nowhere, source) : NULL;
 }
 
@@ -189,9 +183,15 @@ struct source *source_open(struct parser *parser, struct location at,
                            struct string name)
 {
     const char *path = parser_find_file(parser, at, name, PARSER_TEXT);
-    const char *real = path ? resolve(parser, path) : NULL;
+    return path ? source_open_path(parser, at, path) : NULL;
+}
+
+struct source *source_open_path(struct parser *parser, struct location at,
+                                const char *path)
+{
+    const char *real = resolve(parser, path);
     struct source *source = real ? known(parser, real) : NULL;
-    if (!path || source) {
+    if (source) {
         return source;
     }
     source = add(parser, at, path);

@@ -17,7 +17,10 @@ struct source {
 
 /* The scene itself. NULL: could not be read, reported. */
 struct source *source_open_scene(struct parser *parser);
-/* A text that #include names; one that was read already is found again. */
+/* A text that the user names. One that was read already is found again. */
+struct source *source_open_path(struct parser *parser, struct location at,
+                                const char *path);
+/* A text that #include names: it is sought, and must be permitted. */
 struct source *source_open(struct parser *parser, struct location at,
                            struct string name);
 /* Frees texts and tokens. */

@@ -184,7 +184,7 @@ void symbols_undefine(struct name *name)
 const char *symbols_suggest(const struct symbols *symbols,
                             const struct name *name)
 {
-    size_t bound = name->length < 4 ? 1 : name->length < 8 ? 2 : 3;
+    size_t bound = name->length < 12 ? (name->length + 1) / 4 : 3;
     const struct name *best = NULL;
     for (size_t i = 0; i < symbols->buckets; i++) {
         for (struct name *n = symbols->bucket[i]; n; n = n->chain) {
