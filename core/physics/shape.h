@@ -118,7 +118,7 @@ HD bool shape_nappe(float r0, float k, vec3 o, vec3 d,
     }
     if (a > 0.0f && !(discriminant >= 0.0f))
         return false;
-    shape_quadratic(a, b, c, fmaxf(discriminant, 0.0f), &t0, &t1);
+    shape_quadratic(a, b, c, hd_max(discriminant, 0.0f), &t0, &t1);
     if (a > 0.0f || s < 0.0f)
         t[1] = a > 0.0f ? t1 : t0;
     if (a > 0.0f || s > 0.0f)
