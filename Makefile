@@ -8,7 +8,8 @@ CC      ?= cc
 CXX     ?= c++
 NVCC    ?= nvcc
 CUDA    ?= $(if $(shell command -v $(NVCC) 2>/dev/null),1,0)
-CUDA_ARCH ?= native
+# The GPU at hand; without one, code that any from sm_75 on can translate.
+CUDA_ARCH ?= $(if $(shell command -v nvidia-smi 2>/dev/null),native,sm_75)
 SAN     ?= 0
 WERROR  ?= 1
 V       ?= 0

@@ -1,7 +1,6 @@
 /* backend.h - the table of functions that a backend gives. */
 #ifndef CORE_BACKEND_H
 #define CORE_BACKEND_H
-#include <stdatomic.h>
 #include "core/film.h"
 #include "core/plan.h"
 

@@ -25,12 +25,12 @@ static const struct backend *choose_backend(const struct brume_options *o,
                                             struct brume_error *err)
 {
 #ifdef BRUME_CUDA
+    /* The choice by itself is the CPU's until tests/gpu has results that
+     * hold the two against each other. */
     char why[256] = "";
-    bool gpu = o->backend != BRUME_BACKEND_CPU &&
-               backend_cuda.available(why, sizeof why);
-    if (gpu)
-        return &backend_cuda;
     if (o->backend == BRUME_BACKEND_CUDA) {
+        if (backend_cuda.available(why, sizeof why))
+            return &backend_cuda;
         brume_fail(err, BRUME_ERR_DEVICE, "no GPU can be used: %s", why);
         return NULL;
     }
@@ -161,6 +161,18 @@ static void report_goal(const struct frame_job *j)
         snprintf(text, sizeof text, "the error of %g was not reached with %d "
                  "samples per pixel; it is about %.3g", j->error, s->spp,
                  s->error);
+        warn(j, text);
+    }
+    if (s->overflow > 0) {
+        snprintf(text, sizeof text, "more than %d media or containers overlap "
+                 "on %llu segments; those beyond were left out", MAX_ACTIVE,
+                 (unsigned long long)s->overflow);
+        warn(j, text);
+    }
+    if (s->majorant_exceeded > 0) {
+        snprintf(text, sizeof text, "a density exceeded its bound at %llu "
+                 "places: this is a fault of the program",
+                 (unsigned long long)s->majorant_exceeded);
         warn(j, text);
     }
     if (s->rejected > 0) {

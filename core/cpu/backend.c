@@ -2,6 +2,7 @@
  * thread in the order of its samples, so that the picture does not depend on
  * how many there are. */
 #include "core/backend.h"
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
@@ -61,9 +62,8 @@ static void sample_row(void *context, size_t index, int thread)
     int y = film->y0 + (int)index, columns = film->x1 - film->x0;
     film_pixel *p = film->pixel + index * (size_t)columns;
     for (int x = film->x0; x < film->x1; x++, p++)
-        for (uint32_t i = 0; i < s->samples; i++)
-            pixel_sample(&s->frame.flat->view, &s->job, x, y,
-                         film->samples + i, p, &s->count[thread]);
+        pixel_run(&s->frame.flat->view, &s->job, x, y, film->samples,
+                  s->samples, p, &s->count[thread]);
     size_t done = atomic_fetch_add(&s->rows_done, 1) + 1;
     /* Thread 0 is the caller's own. */
     if (thread == 0 &&

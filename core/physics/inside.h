@@ -34,6 +34,7 @@ HD bool inside_shape(const flat_scene *s, int32_t shape, vec3 p)
 HD void inside_find(const flat_scene *s, vec3 p, container_set *set)
 {
     set->count = 0;
+    set->lost = 0;
     for (uint64_t i = 0; i < s->shapes_count; i++) {
         const flat_shape *f = &s->shapes[i];
         if (f->interior >= 0 && (f->flags & SHAPE_HOLLOW) &&

@@ -34,7 +34,7 @@ typedef struct {
     ray_hit after;          /* the ray goes on behind this                 */
     container_set inside;
     rng random;
-    track_counters count;
+    track_counters *count;
 } path_state;
 
 HD void path_add(path_state *p, rgb value)
@@ -71,7 +71,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
         float density = medium_density(s, m, x);
-        p->count.lookups++;
+        p->count->lookups++;
         out->sigma_s[i] = rgb_scale(m->sigma_s, density);
         out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
         out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
@@ -141,7 +141,7 @@ HD int path_collide(path_state *p, const media_walk *w,
     float m = rgb_get(majorant, p->driver);
     rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
     if (rgb_get(drawn, p->driver) > m * 1.00001f)
-        p->count.majorant_exceeded++;
+        p->count->majorant_exceeded++;
     float x = path_fine(&p->random) * m;
     for (int i = 0; i < w->count; i++) {
         float sigma = rgb_get(at->sigma_s[i], p->driver);
@@ -193,7 +193,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
             int event = path_collide(p, w, &at, majorant, &which);
             if (event == PATH_SCATTERED) {
                 *medium = w->part[which].medium;
-                p->count.collisions++;
+                p->count->collisions++;
             }
             if (event != PATH_THROUGH)
                 return event;
@@ -258,7 +258,7 @@ HD int path_media(const flat_scene *s, path_state *p, float t1, float *t,
 {
     media_walk w;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
-    p->count.overflow += w.overflow;
+    p->count->overflow += w.overflow;
     if (w.count == 0)
         return PATH_THROUGH;
     if (!path_walk_scatters(s, &w))
@@ -321,7 +321,7 @@ HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
         container_set set = p->inside;
         rgb left = shadow_transmittance(s, &set,
             s->media_multiple || light->media_attenuation != 0,
-            path_origin(v, l.wi), l.wi, l.distance, &p->random, &p->count);
+            path_origin(v, l.wi), l.wi, l.distance, &p->random, p->count);
         value = rgb_mul(value, left);
     }
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l.probability));
@@ -381,7 +381,7 @@ HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
         return;
     container_set set = p->inside;
     rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi, t,
-                                    &p->random, &p->count);
+                                    &p->random, p->count);
     if (!path_medium_at(s, &set, g.medium))
         return;
     value = rgb_mul(rgb_mul(value, q), left);
@@ -500,10 +500,12 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
 /* ---- the path ---------------------------------------------------------- */
 
 /* One segment: to the next event or surface. False: the path has ended. */
-HD bool path_segment(const flat_scene *s, path_state *p)
+HD bool path_segment(const flat_scene *s, path_state *p,
+                     track_counters *count)
 {
+    p->count = count;
     bvh_ray r = bvh_ray_make(p->o, p->d);
-    p->count.rays++;
+    p->count->rays++;
     ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
     float t;
     int medium;

@@ -81,23 +81,6 @@ HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                      s->unit;
 }
 
-HD void pixel_path(const flat_scene *s, vec3 o, vec3 d,
-                   const container_set *set, uint32_t sample, rng random,
-                   film_pixel *out, pixel_counters *count)
-{
-    path_state p;
-    path_begin(&p, o, d, set, true, random);
-    p.count = count->track;
-    p.count.paths++;
-    while (path_segment(s, &p))
-        ;
-    count->track = p.count;
-    if (pixel_finite(p.radiance))
-        pixel_sum(out->path[sample & 1u], p.radiance);
-    else
-        count->rejected++;
-}
-
 HD void pixel_containers(const flat_scene *s, vec3 o, container_set *set)
 {
     if (s->view.orthographic) {
@@ -105,14 +88,16 @@ HD void pixel_containers(const flat_scene *s, vec3 o, container_set *set)
         return;
     }
     set->count = (int32_t)s->camera_containers_count;
+    set->lost = 0;
     for (int i = 0; i < set->count; i++)
         set->shape[i] = s->camera_containers[i];
 }
 
-/* Adds sample `i` of pixel (x, y). */
-HD void pixel_sample(const flat_scene *s, const pixel_job *job, int32_t x,
-                     int32_t y, uint32_t i, film_pixel *out,
-                     pixel_counters *count)
+/* Starts sample `i` of pixel (x, y): runs its straight line and begins its
+ * path. */
+HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
+                    int32_t y, uint32_t i, path_state *path, film_pixel *out,
+                    pixel_counters *count)
 {
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
     rng random = rng_make(job->seed, job->frame, i, index);
@@ -124,8 +109,36 @@ HD void pixel_sample(const flat_scene *s, const pixel_job *job, int32_t x,
     pixel_containers(s, o, &set);
     if (pixel_has_line(i))
         pixel_line(s, o, d, &set, i, out, count);
-    if (job->path)
-        pixel_path(s, o, d, &set, i, random, out, count);
+    path_begin(path, o, d, &set, true, random);
+    count->track.paths++;
+}
+
+HD void pixel_end(const path_state *path, uint32_t i, film_pixel *out,
+                  pixel_counters *count)
+{
+    if (pixel_finite(path->radiance))
+        pixel_sum(out->path[i & 1u], path->radiance);
+    else
+        count->rejected++;
+}
+
+/* Adds samples [first, first + n) of pixel (x, y), in order. One loop over
+ * segments, not paths: on a GPU a thread whose path has ended takes up its
+ * next one while its neighbours go on with theirs. */
+HD void pixel_run(const flat_scene *s, const pixel_job *job, int32_t x,
+                  int32_t y, uint32_t first, uint32_t n, film_pixel *out,
+                  pixel_counters *count)
+{
+    path_state path;
+    bool alive = false;
+    uint32_t i = first;
+    while (alive || i < first + n) {
+        if (!alive)
+            pixel_begin(s, job, x, y, i++, &path, out, count);
+        alive = job->path && path_segment(s, &path, &count->track);
+        if (!alive)
+            pixel_end(&path, i - 1u, out, count);
+    }
 }
 
 #endif

@@ -13,6 +13,7 @@
 /* The shapes whose interiors a point lies in. */
 typedef struct {
     int32_t count;
+    uint32_t lost;          /* entered beyond MAX_CONTAINERS: not followed */
     int32_t shape[MAX_CONTAINERS];
 } container_set;
 
@@ -182,7 +183,7 @@ HD void walk_begin(const flat_scene *s, media_walk *w,
                    float t0, float t1)
 {
     w->count = 0;
-    w->overflow = 0;
+    w->overflow = set->lost;
     w->t = t0;
     w->t_max = t1;
     if (atmosphere)
@@ -217,8 +218,12 @@ HD bool container_has(const container_set *set, int shape)
  * what rounding at edges can make of one boundary. */
 HD void container_enter(container_set *set, int shape)
 {
-    if (!container_has(set, shape) && set->count < MAX_CONTAINERS)
+    if (container_has(set, shape))
+        return;
+    if (set->count < MAX_CONTAINERS)
         set->shape[set->count++] = shape;
+    else
+        set->lost++;
 }
 
 HD void container_leave(container_set *set, int shape)

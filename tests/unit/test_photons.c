@@ -83,13 +83,15 @@ static double length_in_ball(vec3 o, vec3 d, double t1, double r)
 static void follow(const flat_scene *s, uint64_t photon,
                    double tally[SHELLS])
 {
-    const container_set nowhere = {0, {0}};
+    const container_set nowhere = {0, 0, {0}};
     rng random = rng_make(1, 0, 0, photon);
     float u = rng_float(&random), t = 0.0f;
     vec3 d = warp_sphere(u, rng_float(&random));
     path_state p;
+    track_counters count = {0, 0, 0, 0, 0, 0, 0};
     int medium = 0, event;
     path_begin(&p, vec3_make(0.0f, 0.0f, 0.0f), d, &nowhere, false, random);
+    p.count = &count;
     do {
         event = path_media(s, &p, s->far, &t, &medium);
         double length = event == PATH_THROUGH ? (double)s->far : (double)t;
