@@ -202,7 +202,7 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
            read_counts(s, stats, err);
 }
 
-} // namespace
+}
 
 extern "C" const struct backend backend_cuda = {
     "cuda", cuda_available, cuda_open, cuda_sample, cuda_close,
