@@ -284,8 +284,7 @@ HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi)
         return surface_light(v->surface->material, v->surface->color,
                              v->surface->opacity, v->surface->ns,
                              vec3_scale(v->d, -1.0f), wi);
-    float p = phase_eval(v->medium->phase, v->medium->g,
-                         vec3_dot(v->d, wi));
+    float p = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
     return rgb_gray(p * phase_pov_scale(v->medium->phase) *
                     light_medium_factor(s));
 }
@@ -339,7 +338,7 @@ HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
                                        v->surface->opacity, cosine),
                          WARP_INV_PI);
     }
-    *pdf = phase_eval(v->medium->phase, v->medium->g, vec3_dot(v->d, wi));
+    *pdf = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
     return rgb_gray(*pdf);
 }
 

@@ -91,8 +91,11 @@ HD float phase_eval_ends(int kind, float g, float minus, float plus)
     }
 }
 
+/* For g beyond 0.9 ask phase_eval_between: a cosine rounded by 6e-8 is wrong
+ * by 6e-5 of the density at 0.9, by 7e-3 at 0.99, and by all at 0.999. */
 HD float phase_eval(int kind, float g, float cosine)
 {
+    cosine = hd_max(hd_min(cosine, 1.0f), -1.0f);
     return phase_eval_ends(kind, g, 1.0f - cosine, 1.0f + cosine);
 }
 

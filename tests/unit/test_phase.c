@@ -94,6 +94,26 @@ static void test_phase__eval_is_the_formula(void **state)
                      / (1 + (double)0.999f) - 1) < 1e-6);
 }
 
+/* Between two float directions, against the same in double. */
+static void test_phase__between_keeps_the_peak(void **state)
+{
+    (void)state;
+    rng random = rng_make(14, 0, 0, 0);
+    const float g[] = { 0.5f, 0.99f, 0.9999f, -0.9999f };
+    for (int i = 0; i < 400000; i++) {
+        float pdf, h = g[i % 4], u = rng_float(&random);
+        vec3 d = warp_sphere(u, rng_float(&random));
+        u = rng_float(&random);
+        vec3 w = phase_sample(5, h, d, u, rng_float(&random), &pdf);
+        double sign = h < 0 ? -1 : 1;
+        double x = d.x - sign * w.x, y = d.y - sign * w.y;
+        double z = d.z - sign * w.z;
+        double t = truth(5, fabsf(h), 0.5 * (x * x + y * y + z * z));
+        assert_true(fabs(phase_eval_between(5, h, d, w) / t - 1) < 1e-6);
+        assert_true(isfinite(phase_eval(5, h, vec3_dot(d, w))));
+    }
+}
+
 /* Integral of the density, and of the cosine, over the sphere: midpoints in
  * s, 1 - c = 2 s^12, from the side of the peak. */
 static void test_phase__normalisation(void **state)
@@ -181,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_phase__samplers),
         cmocka_unit_test(test_phase__eval_is_the_formula),
+        cmocka_unit_test(test_phase__between_keeps_the_peak),
         cmocka_unit_test(test_phase__normalisation),
         cmocka_unit_test(test_phase__hg_quantiles),
         cmocka_unit_test(test_phase__hg_sample_is_exact),
