@@ -16,6 +16,7 @@
 
 %code requires {
 #include "parser/eval.h"
+#include "parser/build.h"
 #include "parser/token.h"
 #include "parser/value.h"
 
@@ -41,7 +42,7 @@ bool grammar_accepts(struct scene_yypstate *state, int token);
 #define YYMAXDEPTH GRAMMAR_DEPTH
 /* Values inside of directives are short, and there may be many parsers. */
 #define YYINITDEPTH 40
-enum { GRAMMAR_DEPTH = 200000 };
+enum { GRAMMAR_DEPTH = 1000000 };
 
 static void scene_yyerror(const struct location *at, struct parser *parser,
                           const char *text);
@@ -51,6 +52,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
     struct value value;
     struct name *name;
     struct color color;
+    struct build_file file;
     int count;
 }
 
@@ -102,6 +104,43 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token ';'
 %token LESS_EQUAL "'<='" GREATER_EQUAL "'>='" NOT_EQUAL "'!='"
 
+/* Statements and their words. Words that are used alike share a token. */
+%token <name> CAMERA "'camera'" LIGHT_SOURCE "'light_source'"
+%token <name> BACKGROUND "'background'" GLOBAL_SETTINGS "'global_settings'"
+%token <name> SHAPE "a shape" MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
+%token <name> OBJECT "'object'" MESH_LIST "a list of mesh2"
+%token <name> TEXTURE "'texture'" PIGMENT "'pigment'" FINISH "'finish'"
+%token <name> MATERIAL "'material'" INTERIOR "'interior'" MEDIA "'media'"
+%token <name> SCATTERING "'scattering'" DENSITY "'density'"
+%token <name> DENSITY_FILE "'density_file'" FIRE "'fire'"
+%token <name> FIRE_FIELD "'temperature' or 'amount'"
+%token <name> TRANSFORM "'transform'" MATRIX "'matrix'"
+%token <name> TRANSPORT "'transport'"
+%token <name> MOVE "a transformation" INVERSE "'inverse'"
+%token <name> CAMERA_TYPE "a camera type" CAMERA_ITEM "a camera's vector"
+%token <name> UP "'up'" RADIUS "'radius'" UV_VECTORS "'uv_vectors'"
+%token <name> LIGHT_TYPE "'spotlight'" LIGHT_ITEM "a light's item"
+%token <name> LIGHT_SWITCH "'media_interaction'"
+%token <name> OBJECT_WORD "an object modifier" OBJECT_SWITCH "'hollow'"
+%token <name> MESH_FILE "'ply' or 'obj'" INSIDE_VECTOR "'inside_vector'"
+%token <name> CHECKER "'checker'" QUICK_COLOR "'quick_color'"
+%token <name> FINISH_ITEM "a finish's item" METALLIC "'metallic'"
+%token <name> EMISSION "'emission'" ABSORPTION "'absorption'"
+%token <name> MEDIA_HINT "a sampling hint" SAMPLES "'samples'"
+%token <name> SCATTERING_ITEM "a scattering's item"
+%token <name> FILE_FORMAT "a format of density files"
+%token <name> INTERPOLATE "'interpolate'" FIT "'fit'"
+%token <name> KELVIN "'kelvin'" FIRE_ITEM "a fire's item"
+%token <name> BRIGHTNESS "'brightness'" BRIGHTNESS_WORD "a brightness"
+%token <name> COUPLING "'coupling'" ADDITIVE "'additive'"
+%token <name> PRESET "'preset'" PROGRAM "a program's name"
+%token <name> GLOBAL_ITEM "a global setting"
+%token <name> INTEGRATOR "'integrator'" INTEGRATOR_WORD "an integrator"
+%token <name> LIGHT_UNITS "'light_units'" POV "'pov'" PHYSICAL "'physical'"
+%token <name> MEDIA_WORD "'single' or 'multiple'"
+%token <name> SURFACES "'surfaces'" SURFACES_WORD "'direct' or 'indirect'"
+%token <name> ENVIRONMENT "'environment'"
+
 /* An operand ends only where no operator follows: LOW is below them all. */
 %precedence LOW
 %precedence '{'
@@ -116,12 +155,19 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %nterm <color> color_words color_head color_item
 %nterm <count> components arguments sizes items relop
 
+%nterm <value> node placed object shape member named light camera part
+%nterm <value> surface texture texture_item pigment finish material
+%nterm <value> material_item interior media density transform
+%nterm <name> camera_word light_word object_word list_word finish_word
+%nterm <name> media_word brightness coupling light_units
+%nterm <file> density_file
+
 %%
 
 start:
     MODE_SCENE scene
-  | MODE_VALUE rvalue
-        { expander_result(parser, &$2); }
+  | value_open rvalue
+        { build_resume(parser); expander_result(parser, &$2); }
   | MODE_STRING string
         { expander_result(parser, &$2); YYACCEPT; }
   | MODE_CONDITION '(' full ')'
@@ -130,13 +176,20 @@ start:
         { expander_count(parser, $2); YYACCEPT; }
   | MODE_INDEX '[' float ']'
         { expander_result(parser, &$3); YYACCEPT; }
-  | MODE_DEFAULT '{' '}'
-        { YYACCEPT; }
+  | default_open defaults '}'
+        { build_close(parser, @3); YYACCEPT; }
   ;
 
-scene:
-    %empty
+value_open:
+    MODE_VALUE
+        { build_suspend(parser); }
   ;
+
+default_open:
+    MODE_DEFAULT '{'
+        { build_open(parser, "#default", @1); }
+  ;
+
 
 /* ---- values ------------------------------------------------------------ */
 
@@ -147,6 +200,7 @@ rvalue:
   | array
   | ARRAY_ID
         { $$ = eval_array_copy(parser, &$1); }
+  | node
   ;
 
 /* Where a float is wanted. */
@@ -333,6 +387,368 @@ item:
         { eval_push(parser, &$1); }
   | list
         { eval_push(parser, &$1); }
+  ;
+
+/* ---- statements: opened, filled and closed in the builder -------------- */
+
+scene:
+    %empty
+  | scene placed                    { build_place(parser, &$2, @2); }
+  | scene BACKGROUND open numbers '}' { build_close(parser, @5); }
+  | scene GLOBAL_SETTINGS open global_items '}' { build_close(parser, @5); }
+  ;
+
+placed:
+    object | light | camera | media
+  ;
+
+/* Values that can be declared, besides numbers, strings and arrays. */
+node:
+    placed | part | density | transform
+  | OBJECT_ID | LIGHT_ID | CAMERA_ID | TEXTURE_ID | PIGMENT_ID | FINISH_ID
+  | MATERIAL_ID | INTERIOR_ID | MEDIA_ID | DENSITY_ID | TRANSFORM_ID
+  ;
+
+/* The braces of a statement, of which the keyword stands before them. */
+open:
+    '{'                             { build_open(parser, $<name>0->text, @0); }
+  ;
+
+/* Numbers that stand before the modifiers of a statement. */
+numbers:
+    number
+  | numbers ',' number
+  | numbers number
+  ;
+
+number:
+    expr %prec LOW                  { build_argument(parser, &$1, @1); }
+  ;
+
+/* ---- transformations --------------------------------------------------- */
+
+transformation:
+    MOVE expr %prec LOW             { build_move(parser, $1->text, &$2, @2); }
+  | MATRIX '<' components '>'
+        { build_matrix(parser, eval_pop(parser, $3), $3, @1); }
+  | TRANSFORM TRANSFORM_ID          { build_apply(parser, &$2, @2); }
+  | transform                       { build_apply(parser, &$1, @1); }
+  ;
+
+transform:
+    TRANSFORM open transform_items '}' { $$ = build_close(parser, @4); }
+  ;
+
+transform_items:
+    %empty
+  | transform_items transformation
+  | transform_items TRANSFORM_ID    { build_apply(parser, &$2, @2); }
+  | transform_items INVERSE         { build_word(parser, $2, @2); }
+  ;
+
+/* ---- camera and lights ------------------------------------------------- */
+
+camera:
+    CAMERA open camera_items '}'    { $$ = build_close(parser, @4); }
+  ;
+
+camera_items:
+    %empty
+  | camera_items transformation
+  | camera_items CAMERA_ID          { build_apply(parser, &$2, @2); }
+  | camera_items CAMERA_TYPE        { build_word(parser, $2, @2); }
+  | camera_items camera_word expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  ;
+
+camera_word:
+    CAMERA_ITEM | UP
+  ;
+
+light:
+    LIGHT_SOURCE open light_start light_items '}'
+        { $$ = build_close(parser, @5); }
+  ;
+
+light_start:
+    numbers
+  | LIGHT_ID                        { build_apply(parser, &$1, @1); }
+  ;
+
+light_items:
+    %empty
+  | light_items transformation
+  | light_items LIGHT_TYPE          { build_word(parser, $2, @2); }
+  | light_items light_word expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  | light_items LIGHT_SWITCH        { build_word(parser, $2, @2); }
+  | light_items LIGHT_SWITCH expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  ;
+
+light_word:
+    LIGHT_ITEM | RADIUS
+  ;
+
+/* ---- objects ----------------------------------------------------------- */
+
+object:
+    shape
+  | MESH open mesh_items '}'        { $$ = build_close(parser, @4); }
+  | MESH2 open mesh2_items '}'      { $$ = build_close(parser, @4); }
+  | UNION open union_items '}'      { $$ = build_close(parser, @4); }
+  | OBJECT open object_items '}'    { $$ = build_close(parser, @4); }
+  ;
+
+shape:
+    SHAPE open numbers modifiers '}' { $$ = build_close(parser, @5); }
+  ;
+
+modifiers:
+    %empty
+  | modifiers modifier
+  ;
+
+modifier:
+    part                            { build_apply(parser, &$1, @1); }
+  | object_word                     { build_word(parser, $1, @1); }
+  | OBJECT_SWITCH                   { build_word(parser, $1, @1); }
+  | OBJECT_SWITCH expr %prec LOW    { build_set(parser, $1, @1, &$2, 1, @2); }
+  | INSIDE_VECTOR expr %prec LOW    { build_set(parser, $1, @1, &$2, 1, @2); }
+  | UV_VECTORS components
+        { build_uv_vectors(parser, eval_pop(parser, $2), $2, @1); }
+  | transformation
+  ;
+
+object_word:
+    OBJECT_WORD | INVERSE
+  ;
+
+part:
+    texture | pigment | finish | material | interior
+  ;
+
+mesh_items:
+    %empty
+  | mesh_items modifier
+  | mesh_items shape                { build_apply(parser, &$2, @2); }
+  | mesh_items MESH_FILE string
+        { build_mesh_file(parser, $2->text, $3.string, @3); }
+  ;
+
+mesh2_items:
+    %empty
+  | mesh2_items modifier
+  | mesh2_items list_word open numbers '}' { build_close(parser, @5); }
+  | mesh2_items list_word open numbers ',' '}' { build_close(parser, @6); }
+  ;
+
+list_word:
+    MESH_LIST | UV_VECTORS
+  ;
+
+union_items:
+    %empty
+  | union_items modifier
+  | union_items member              { build_apply(parser, &$2, @2); }
+  ;
+
+object_items:
+    %empty
+  | object_items modifier
+  | object_items named              { build_apply(parser, &$2, @2); }
+  ;
+
+member:
+    object | light
+  ;
+
+named:
+    member | OBJECT_ID | LIGHT_ID
+  ;
+
+/* ---- surfaces ---------------------------------------------------------- */
+
+surface:
+    texture | pigment | finish
+  ;
+
+defaults:
+    %empty
+  | defaults surface                { build_apply(parser, &$2, @2); }
+  ;
+
+texture:
+    TEXTURE open texture_items '}'  { $$ = build_close(parser, @4); }
+  ;
+
+texture_items:
+    %empty
+  | texture_items transformation
+  | texture_items texture_item      { build_apply(parser, &$2, @2); }
+  ;
+
+texture_item:
+    TEXTURE_ID | PIGMENT_ID | FINISH_ID | pigment | finish
+  ;
+
+pigment:
+    PIGMENT open pigment_items '}'  { $$ = build_close(parser, @4); }
+  ;
+
+pigment_items:
+    %empty
+  | pigment_items transformation
+  | pigment_items colors
+  | pigment_items PIGMENT_ID        { build_apply(parser, &$2, @2); }
+  | pigment_items CHECKER           { build_word(parser, $2, @2); }
+  | pigment_items QUICK_COLOR expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  ;
+
+colors:
+    number
+  | colors ',' number
+  ;
+
+finish:
+    FINISH open finish_items '}'    { $$ = build_close(parser, @4); }
+  ;
+
+finish_items:
+    %empty
+  | finish_items FINISH_ID          { build_apply(parser, &$2, @2); }
+  | finish_items finish_word expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  | finish_items METALLIC           { build_word(parser, $2, @2); }
+  | finish_items METALLIC expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  ;
+
+finish_word:
+    FINISH_ITEM | EMISSION
+  ;
+
+material:
+    MATERIAL open material_items '}' { $$ = build_close(parser, @4); }
+  ;
+
+material_items:
+    %empty
+  | material_items transformation
+  | material_items material_item    { build_apply(parser, &$2, @2); }
+  ;
+
+material_item:
+    MATERIAL_ID | texture | interior
+  ;
+
+/* ---- interior and media ------------------------------------------------ */
+
+interior:
+    INTERIOR open interior_items '}' { $$ = build_close(parser, @4); }
+  ;
+
+interior_items:
+    %empty
+  | interior_items INTERIOR_ID      { build_apply(parser, &$2, @2); }
+  | interior_items media            { build_apply(parser, &$2, @2); }
+  ;
+
+media:
+    MEDIA open media_items '}'      { $$ = build_close(parser, @4); }
+  ;
+
+media_items:
+    %empty
+  | media_items transformation
+  | media_items MEDIA_ID            { build_apply(parser, &$2, @2); }
+  | media_items media_word expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  | media_items SAMPLES components
+        { build_set(parser, $2, @2, eval_pop(parser, $3), $3, @3); }
+  | media_items SCATTERING open numbers scattering_items '}'
+        { build_close(parser, @6); }
+  | media_items density             { build_apply(parser, &$2, @2); }
+  | media_items FIRE open fire_items '}' { build_close(parser, @5); }
+  ;
+
+media_word:
+    ABSORPTION | EMISSION | MEDIA_HINT
+  ;
+
+scattering_items:
+    %empty
+  | scattering_items SCATTERING_ITEM expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  ;
+
+density:
+    DENSITY open density_items '}'  { $$ = build_close(parser, @4); }
+  ;
+
+density_items:
+    %empty
+  | density_items transformation
+  | density_items number
+  | density_items DENSITY_ID        { build_apply(parser, &$2, @2); }
+  | density_items density_file %prec LOW { build_density_file(parser, &$2); }
+  ;
+
+density_file:
+    DENSITY_FILE FILE_FORMAT string
+        { $$ = build_file_named($2->text, $3.string, @3); }
+  | density_file string             { $$ = $1; $$.grid = $2.string; }
+  | density_file INTERPOLATE expr %prec LOW
+        { $$ = $1; build_file_interpolate(parser, &$$, &$3, @3); }
+  | density_file FIT                { $$ = $1; $$.fit = true; }
+  | density_file UP expr %prec LOW
+        { $$ = $1; build_file_up(parser, &$$, &$3, @3); }
+  ;
+
+fire_items:
+    %empty
+  | fire_items transformation
+  | fire_items FIRE_FIELD open density_items '}' { build_close(parser, @5); }
+  | fire_items KELVIN components
+        { build_set(parser, $2, @2, eval_pop(parser, $3), $3, @3); }
+  | fire_items FIRE_ITEM expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  | fire_items BRIGHTNESS brightness { build_choose(parser, $2, $3, @3); }
+  | fire_items COUPLING coupling    { build_choose(parser, $2, $3, @3); }
+  | fire_items PRESET PROGRAM       { build_choose(parser, $2, $3, @3); }
+  ;
+
+brightness:
+    PHYSICAL | BRIGHTNESS_WORD
+  ;
+
+coupling:
+    ABSORPTION | ADDITIVE
+  ;
+
+/* ---- global_settings --------------------------------------------------- */
+
+global_items:
+    %empty
+  | global_items GLOBAL_ITEM expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
+  | global_items INTEGRATOR INTEGRATOR_WORD
+        { build_choose(parser, $2, $3, @3); }
+  | global_items LIGHT_UNITS light_units { build_choose(parser, $2, $3, @3); }
+  | global_items TRANSPORT open transport_items '}' { build_close(parser, @5); }
+  ;
+
+light_units:
+    POV | PHYSICAL
+  ;
+
+transport_items:
+    %empty
+  | transport_items MEDIA MEDIA_WORD { build_choose(parser, $2, $3, @3); }
+  | transport_items SURFACES SURFACES_WORD { build_choose(parser, $2, $3, @3); }
+  | transport_items ENVIRONMENT expr %prec LOW
+        { build_set(parser, $2, @2, &$3, 1, @3); }
   ;
 
 %%

@@ -1,4 +1,5 @@
 #include "parser/parse.h"
+#include "parser/build.h"
 #include "parser/expander.h"
 #include "parser/parser.h"
 #include "parser/report.h"
@@ -117,7 +118,16 @@ static bool read_scene(struct parser *parser)
     return (symbols_init(&parser->symbols, &parser->arena)
             || report_no_memory(parser))
         && predeclare_floats(parser) && predeclare_vectors(parser)
-        && predeclare_given(parser) && expander_run(parser);
+        && predeclare_given(parser) && build_begin(parser)
+        && expander_run(parser) && build_finish(parser);
+}
+
+static bool begin_scene(struct parser *parser)
+{
+    struct brume_error err = {0};
+    parser->out->scene = brume_scene_new(&err);
+    return parser->out->scene || diag_error(parser->diag, err.code, "%s",
+                                            err.text);
 }
 
 bool parse_scene(const struct parse_input *in, struct parse_result *out,
@@ -128,8 +138,14 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     parser.limits = limits_of(in);
     parser.version = in->version > 0 ? in->version : VERSION_DEFAULT;
     arena_init(&parser.arena, parser.limits.memory);
-    bool done = read_scene(&parser) && diag->errors == 0;
+    bool done = begin_scene(&parser) && read_scene(&parser)
+        && diag->errors == 0;
+    if (!done) {
+        brume_scene_free(out->scene);
+        out->scene = NULL;
+    }
     out->version = parser.version;
+    build_release(&parser);
     source_release(&parser);
     arena_release(&parser.arena);
     return done;

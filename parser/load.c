@@ -1,0 +1,253 @@
+#include "parser/load.h"
+
+#include <string.h>
+
+#include "lib/df3.h"
+#include "lib/grid.h"
+#include "lib/mesh.h"
+#include "parser/builder.h"
+
+struct loaded_grid {
+    struct loaded_grid *next;
+    const char *path;
+    char name[64];              /* of the grid in the file                 */
+    enum grid_filter filter;
+    int id;                     /* in core                                 */
+    transform fit;              /* to_world's inverse, then its box to the
+                                   unit cube                               */
+    bool empty;                 /* there is no box                         */
+};
+
+/* ---- the box of a grid ------------------------------------------------- */
+
+/* In index space, of the centres of samples that are not the background. */
+struct box {
+    int32_t low[3], high[3];
+};
+
+static void widen(struct box *box, const int32_t p[3])
+{
+    for (int i = 0; i < 3; i++) {
+        box->low[i] = p[i] < box->low[i] ? p[i] : box->low[i];
+        box->high[i] = p[i] > box->high[i] ? p[i] : box->high[i];
+    }
+}
+
+static void widen_by_brick(struct box *box, const struct grid *grid,
+                           int32_t slot, const int32_t corner[3])
+{
+    const float *voxel =
+        slot >= 0 ? grid->voxel + (size_t)slot * GRID_BRICK_VOXELS : NULL;
+    float background = grid->tile[0];
+    float tile = slot < 0 ? grid->tile[-1 - slot] : 0;
+
+    for (int32_t i = 0; i < GRID_BRICK_VOXELS; i++) {
+        int32_t p[3] = {corner[0] + i % 8, corner[1] + i / 8 % 8,
+                        corner[2] + i / 64};
+        if ((voxel ? voxel[i] : tile) != background)
+            widen(box, p);
+    }
+}
+
+static struct box box_of(const struct grid *grid)
+{
+    struct box box = {{INT32_MAX, INT32_MAX, INT32_MAX},
+                      {INT32_MIN, INT32_MIN, INT32_MIN}};
+    size_t brick = 0;
+
+    for (int32_t z = 0; z < grid->bricks[2]; z++)
+        for (int32_t y = 0; y < grid->bricks[1]; y++)
+            for (int32_t x = 0; x < grid->bricks[0]; x++, brick++) {
+                int32_t corner[3] = {grid->origin[0] + 8 * x,
+                                     grid->origin[1] + 8 * y,
+                                     grid->origin[2] + 8 * z};
+                if (grid->slot[brick] != -1)
+                    widen_by_brick(&box, grid, grid->slot[brick], corner);
+            }
+    return box;
+}
+
+/* A sample fills its voxel: half a step on each side of its centre. */
+static void find_fit(const struct grid *grid, struct loaded_grid *out)
+{
+    struct box box = box_of(grid);
+    transform to_world, cube = transform_identity();
+
+    memcpy(to_world.m, grid->to_world, sizeof to_world.m);
+    out->empty = box.high[0] < box.low[0];
+    out->fit = transform_identity();
+    if (out->empty || !transform_inverse(&to_world, &out->fit))
+        return;
+    for (int i = 0; i < 3; i++) {
+        double low = box.low[i] - 0.5, high = box.high[i] + 0.5;
+        cube.m[i][i] = 1 / (high - low);
+        cube.m[i][3] = -low / (high - low);
+    }
+    out->fit = transform_then(&out->fit, &cube);
+}
+
+/* ---- grids ------------------------------------------------------------- */
+
+static void warn_of_bad(struct parser *parser, const struct build_file *file,
+                        const struct grid *grid)
+{
+    if (grid->bad_nan || grid->bad_inf || grid->bad_negative)
+        parser_warn(parser, file->at, "grid '%s' of '%s': %zu NaN, %zu "
+                    "infinite and %zu negative voxels are taken as 0",
+                    grid->name, file->name.text, grid->bad_nan, grid->bad_inf,
+                    grid->bad_negative);
+}
+
+static bool is_vdb(const struct build_file *file)
+{
+    return !strcmp(file->format, "vdb");
+}
+
+/* Which grid of the file is meant: the named one, or the one for the role. */
+static bool choose_grid(struct parser *parser, const struct build_file *file,
+                        const char *path, enum vdb_role role, char name[64])
+{
+    struct brume_error err = {0};
+    struct vdb_list *list;
+
+    memset(name, 0, 64);
+    if (!is_vdb(file))
+        return true;
+    if (file->grid.text && file->grid.length > 63)
+        return parser_error(parser, file->at, "the name of the grid has more "
+                            "than 63 bytes");
+    if (file->grid.text && file->grid.length > 0) {
+        memcpy(name, file->grid.text, file->grid.length);
+        return true;
+    }
+    list = vdb_list_new(path, &err);
+    const struct vdb_entry *entry =
+        list ? vdb_choose(list, role, path, &err) : NULL;
+    if (entry)
+        memcpy(name, entry->name, 64);
+    vdb_list_free(list);
+    return entry || parser_relay(parser, file->at, &err);
+}
+
+static bool choose_filter(struct parser *parser,
+                          const struct build_file *file,
+                          enum grid_filter *filter)
+{
+    int interpolate = file->interpolate;
+
+    if (interpolate < 0)
+        interpolate = is_vdb(file) ? 1 : 0;
+    *filter = interpolate == 0 ? GRID_NEAREST : GRID_TRILINEAR;
+    if (interpolate <= 1)
+        return true;
+    return parser_error(parser, file->at, "'interpolate %d' is not supported "
+                        "yet, 0 and 1 are", interpolate);
+}
+
+static struct loaded_grid *find_grid(struct parser *parser, const char *path,
+                                     const char *name,
+                                     enum grid_filter filter)
+{
+    struct loaded_grid *known = parser->builder->loader.grids;
+
+    for (; known; known = known->next)
+        if (!strcmp(known->path, path) && !strcmp(known->name, name) &&
+            known->filter == filter)
+            break;
+    return known;
+}
+
+static bool send_grid(struct parser *parser, const struct build_file *file,
+                      struct grid *grid, struct loaded_grid *out)
+{
+    struct brume_error err = {0};
+
+    grid->filter = out->filter;
+    warn_of_bad(parser, file, grid);
+    find_fit(grid, out);
+    out->id = brume_add_grid(parser->out->scene, grid, &err);
+    return out->id >= 0 || parser_relay(parser, file->at, &err);
+}
+
+static struct loaded_grid *load_grid(struct parser *parser,
+                                     const struct build_file *file,
+                                     const char *path, const char *name,
+                                     enum grid_filter filter)
+{
+    struct loaded_grid *out = parser_alloc(parser, sizeof *out);
+    struct brume_error err = {0};
+
+    if (!out)
+        return NULL;
+    out->path = path;
+    memcpy(out->name, name, sizeof out->name);
+    out->filter = filter;
+    struct grid *grid = is_vdb(file)
+        ? vdb_load(path, name, VDB_DENSITY, &err)
+        : df3_load(path, filter, &err);
+    if (!grid) {
+        parser_relay(parser, file->at, &err);
+        return NULL;
+    }
+    bool sent = send_grid(parser, file, grid, out);
+    grid_free(grid);
+    if (!sent)
+        return NULL;
+    out->next = parser->builder->loader.grids;
+    parser->builder->loader.grids = out;
+    return out;
+}
+
+/* A right-handed world with z up, as Blender's, seen from a left-handed one
+ * with y up: (x, y, z) becomes (x, z, y). */
+static const transform swap_y_and_z = {
+    {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}}};
+
+static void place_grid(struct parser *parser, const struct build_file *file,
+                       const struct loaded_grid *grid, struct density *out)
+{
+    out->has_grid = true;
+    out->grid = grid->id;
+    out->by = file->fit ? grid->fit : transform_identity();
+    if (file->up_z)
+        out->by = transform_then(&out->by, &swap_y_and_z);
+    if (file->fit && grid->empty)
+        parser_warn(parser, file->at, "grid '%s' of '%s' is empty: there is "
+                    "nothing to fit", grid->name, file->name.text);
+}
+
+bool load_density(struct parser *parser, const struct build_file *file,
+                  enum vdb_role role, struct density *out)
+{
+    enum grid_filter filter;
+    char name[64];
+
+    if (!is_vdb(file) && strcmp(file->format, "df3"))
+        return parser_error(parser, file->at, "density_file '%s' is not "
+                            "supported yet", file->format);
+    if (!is_vdb(file) && (file->fit || file->grid.text))
+        return parser_error(parser, file->at, "a df3 file has no grid to "
+                            "name or to fit: it fills the unit cube");
+    const char *path = parser_find_file(parser, file->at, file->name,
+                                        PARSER_DATA);
+    if (!path || !choose_filter(parser, file, &filter) ||
+        !choose_grid(parser, file, path, role, name))
+        return false;
+    struct loaded_grid *grid = find_grid(parser, path, name, filter);
+    if (!grid)
+        grid = load_grid(parser, file, path, name, filter);
+    if (!grid)
+        return false;
+    place_grid(parser, file, grid, out);
+    return true;
+}
+
+/* ---- meshes ------------------------------------------------------------ */
+
+struct model_mesh *load_mesh(struct parser *parser,
+                             const struct build_file *file)
+{
+    parser_error(parser, file->at, "mesh files of format '%s' are not "
+                 "supported yet", file->format);
+    return NULL;
+}

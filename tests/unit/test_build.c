@@ -1,0 +1,496 @@
+/* test_build.c - view, objects, surfaces and settings of scenes as text. */
+#include "tests/unit/scene_text.h"
+
+/* ---- the view ---------------------------------------------------------- */
+
+static void cameras(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene("");
+    NUMBERS(s->camera.right, 1.33, 0, 0);
+    NUMBERS(s->camera.direction, 0, 0, 1);
+    s = scene("camera { orthographic location -z*3 up 2*y right 4*x "
+              "sky y direction z scale 2 translate x }");
+    assert_int_equal(s->camera.kind, BRUME_CAMERA_ORTHOGRAPHIC);
+    NUMBERS(s->camera.location, 1, 0, -6);
+    NUMBERS(s->camera.up, 0, 4, 0);
+    s = scene("#declare C = camera { perspective location <0, 0, -4> "
+              "angle 90 look_at 0 }\n"
+              "camera { C rotate 90*y }\n");
+    NUMBERS(s->camera.location, -4, 0, 0);
+    NUMBERS(s->camera.direction, 0.665, 0, 0);
+    expect_error("camera { angle 180 }", BRUME_ERR_SCENE, 1, 16,
+                 "'angle' is 180, must be at least 0 and less than 180");
+    expect_error("camera { look_at 0 }", BRUME_ERR_SCENE, 1, 1,
+                 "the same point");
+    expect_warning("camera { look_at y }", 1, 1, "along its sky");
+}
+
+static void lights(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "light_source { <1, 2, 3>, rgb <4, 5, 6> }\n"
+        "#declare L = light_source { 0 color 1 spotlight radius 10\n"
+        "  falloff 20 tightness 3 point_at -y fade_distance 5 fade_power 2\n"
+        "  shadowless media_interaction off media_attenuation on }\n"
+        "light_source { L translate 2*x }\n"
+        "union { object { L } light_source { L scale 2 } rotate 90*z }\n");
+    assert_int_equal(s->lights, 4);
+    const struct brume_light *l = &s->light[0];
+    assert_int_equal(l->kind, BRUME_LIGHT_POINT);
+    NUMBERS(l->location, 1, 2, 3);
+    NUMBERS(l->color, 4, 5, 6);
+    assert_true(l->shadows && l->media_interaction && !l->media_attenuation);
+    l = &s->light[1];
+    assert_int_equal(l->kind, BRUME_LIGHT_SPOT);
+    NUMBERS(l->location, 2, 0, 0);
+    NUMBERS(l->point_at, 2, -1, 0);
+    NUMBERS(&l->radius, 10, 20, 3, 5, 2);
+    assert_true(!l->shadows && !l->media_interaction && l->media_attenuation);
+    NUMBERS(s->light[2].point_at, 1, 0, 0);
+    NUMBERS(s->light[3].point_at, 2, 0, 0);
+    expect_error("light_source { 0, 1 spotlight radius 91 }", BRUME_ERR_SCENE,
+                 1, 38, "'radius' is 91");
+    expect_error("light_source { 0 }", BRUME_ERR_SCENE, 1, 18,
+                 "'light_source' needs its color");
+    expect_error("light_source { 0, 1 pigment { rgb 1 } }", BRUME_ERR_SCENE,
+                 1, 21, "pigment");
+    expect_warning("light_source { 0, 1 radius 5 }", 1, 1, "without");
+}
+
+static void backgrounds(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene("background { color rgb <1, 2, 3> }");
+    NUMBERS(s->globals.background, 1, 2, 3);
+    s = scene("#declare C = rgb <0, .5, 1>; background { C }");
+    NUMBERS(s->globals.background, 0, 0.5, 1);
+}
+
+/* ---- objects ----------------------------------------------------------- */
+
+static void shapes(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "sphere { <1, 2, 3>, -4 }\n"
+        "box { <1, 0, 1>, <0, 2, 3> inverse }\n"
+        "cylinder { 0, y, 2 open no_shadow }\n"
+        "cone { 0, 1, 2*y, 3 hollow }\n"
+        "plane { y, -1 hollow off }\n"
+        "disc { x, y, 3, 1 } disc { x, y 3 }\n");
+    assert_int_equal(s->shapes, 7);
+    assert_int_equal(s->shape[0].kind, BRUME_SHAPE_SPHERE);
+    NUMBERS(s->shape[0].a, 1, 2, 3);
+    NUMBERS(&s->shape[0].radius, 4);
+    assert_true(s->shape[0].shadow && !s->shape[0].hollow);
+    assert_int_equal(s->shape[1].kind, BRUME_SHAPE_BOX);
+    NUMBERS(s->shape[1].a, 0, 0, 1);
+    NUMBERS(s->shape[1].b, 1, 2, 3);
+    assert_true(s->shape[1].inverse);
+    assert_int_equal(s->shape[2].kind, BRUME_SHAPE_CYLINDER);
+    assert_true(s->shape[2].open && !s->shape[2].shadow);
+    assert_int_equal(s->shape[3].kind, BRUME_SHAPE_CONE);
+    NUMBERS(&s->shape[3].radius, 1, 3);
+    assert_true(s->shape[3].hollow);
+    assert_int_equal(s->shape[4].kind, BRUME_SHAPE_PLANE);
+    NUMBERS(&s->shape[4].radius, -1);
+    assert_int_equal(s->shape[5].kind, BRUME_SHAPE_DISC);
+    NUMBERS(&s->shape[5].radius, 3, 1);
+    NUMBERS(&s->shape[6].radius, 3, 0);
+    /* All wear the default texture. */
+    assert_int_equal(s->materials, 1);
+    NUMBERS(s->material[0].color[0], 0, 0, 0, 0, 0);
+}
+
+static void shapes_that_are_wrong(void **state)
+{
+    (void)state;
+    expect_error("sphere { 0 }", BRUME_ERR_SCENE, 1, 12,
+                 "'sphere' needs its radius");
+    expect_error("sphere { 0, 1, 2 }", BRUME_ERR_SCENE, 1, 16, "no more");
+    expect_error("sphere { 0, x }", BRUME_ERR_SCENE, 1, 13, "a float");
+    expect_error("sphere { 0, 1 open }", BRUME_ERR_SCENE, 1, 15,
+                 "'sphere' cannot have 'open'");
+    expect_error("union { sphere { 0, 1 } inverse }", BRUME_ERR_SCENE, 1, 25,
+                 "not supported yet");
+    expect_error("object { }", BRUME_ERR_SCENE, 1, 10, "needs an object");
+    expect_error("sphere { 0, 1 matrix <1, 2, 3> }", BRUME_ERR_SCENE, 1, 15,
+                 "12 numbers");
+    expect_error("sphere { 0, 1 matrix <1,0,0, 0,1,0, 0,0,0, 0,0,0> }",
+                 BRUME_ERR_SCENE, 1, 15, "no inverse");
+    expect_warning("sphere { 0, 0 }", 1, 1, "radius 0");
+    assert_int_equal(result.scene->shapes, 0);
+    expect_warning("sphere { 0, 1 scale <1, 0, 1> }", 1, 21, "scale of y");
+    expect_warning("union { }", 1, 1, "empty");
+}
+
+static void transformations(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare T = transform { scale 2 translate x inverse }\n"
+        "sphere { 0, 1 rotate 90*z translate <1, 2, 3>\n"
+        "  matrix <1, 0, 0, 0, 1, 0, 0, 0, 1, 10, 20, 30> }\n"
+        "sphere { 0, 1 transform T }\n"
+        "sphere { 0, 1 transform { T translate z } transform { T inverse } }\n"
+    );
+    NUMBERS(s->shape[0].transform[0], 0, -1, 0, 11);
+    NUMBERS(s->shape[0].transform[1], 1, 0, 0, 22);
+    NUMBERS(s->shape[0].transform[2], 0, 0, 1, 33);
+    NUMBERS(s->shape[1].transform[0], 0.5, 0, 0, -0.5);
+    NUMBERS(s->shape[2].transform[0], 1, 0, 0, 0);
+    NUMBERS(s->shape[2].transform[2], 0, 0, 1, 2);
+}
+
+static void unions_hand_down(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "union {\n"
+        "  sphere { 0, 1 }\n"
+        "  sphere { 0, 1 pigment { checker rgb 1, rgb 0 } scale 2 }\n"
+        "  union { box { 0, 1 hollow off } sphere { 0, 1 } no_shadow }\n"
+        "  hollow\n"
+        "  translate x\n"
+        "  texture { pigment { checker rgb 1 rgb .5 } scale 3 }\n"
+        "  rotate 90*z\n"
+        "}\n");
+    assert_int_equal(s->shapes, 4);
+    NUMBERS(s->shape[0].transform[1], 1, 0, 0, 1);
+    const struct brume_material *m = &s->material[s->shape[0].material];
+    NUMBERS(m->color[1], 0.5, 0.5, 0.5, 0, 0);
+    /* Not moved by x, which stands before it; turned by what stands after. */
+    NUMBERS(m->pigment_transform[0], 0, -3, 0, 0);
+    NUMBERS(m->pigment_transform[1], 3, 0, 0, 0);
+    m = &s->material[s->shape[1].material];
+    NUMBERS(m->pigment_transform[1], 2, 0, 0, 1);
+    assert_true(s->shape[0].hollow && !s->shape[2].hollow);
+    assert_true(s->shape[3].hollow && !s->shape[3].shadow);
+    assert_true(s->shape[1].shadow);
+    assert_int_equal(s->shape[2].material, s->shape[0].material);
+    assert_int_equal(s->materials, 2);
+}
+
+static void declared_objects_are_copied(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare B = box { 0, 1 pigment { rgb x } translate x }\n"
+        "#declare U = union { object { B } object { B scale 2 } }\n"
+        "object { B translate y pigment { rgb y } }\n"
+        "object { U translate z texture { pigment { rgb z } } }\n"
+        "object { sphere { 0, 1 } scale 3 }\n");
+    assert_int_equal(s->shapes, 4);
+    NUMBERS(s->shape[0].transform[1], 0, 1, 0, 1);
+    NUMBERS(s->material[s->shape[0].material].color[0], 0, 1, 0, 0, 0);
+    NUMBERS(s->material[s->shape[1].material].color[0], 1, 0, 0, 0, 0);
+    NUMBERS(s->shape[2].transform[0], 2, 0, 0, 2);
+    NUMBERS(s->shape[2].transform[2], 0, 0, 2, 1);
+    NUMBERS(s->shape[3].transform[0], 3, 0, 0, 0);
+}
+
+/* As deep as a script may nest: a stack, not recursion, walks it. */
+static void unions_nest_deep(void **state)
+{
+    enum { DEEP = 100000 };
+    size_t room = DEEP * 10 + 100;
+    char *text = malloc(room), *at = text;
+    (void)state;
+
+    assert_non_null(text);
+    for (int i = 0; i < DEEP; i++)
+        at += sprintf(at, "union{");
+    at += sprintf(at, "sphere{0,1}");
+    for (int i = 0; i < DEEP; i++)
+        at += sprintf(at, "}");
+    assert_int_equal(scene(text)->shapes, 1);
+    free(text);
+}
+
+/* ---- meshes ------------------------------------------------------------ */
+
+static void meshes(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare M = mesh {\n"
+        "  triangle { 0, x, y }\n"
+        "  smooth_triangle { 0, z, x, z, y, z\n"
+        "    uv_vectors <0, 0>, <1, 0>, <0, 1> }\n"
+        "  inside_vector y hierarchy on\n"
+        "  pigment { rgb 1 } }\n"
+        "object { M } object { M translate x }\n"
+        "triangle { 0, x, y pigment { rgb x } }\n"
+        "smooth_triangle { 0, z, x, z, y, z }\n");
+    assert_int_equal(s->meshes, 3);
+    assert_int_equal(s->shapes, 4);
+    assert_int_equal(s->mesh[0].triangles, 2);
+    assert_int_equal(s->mesh[0].vertices, 6);
+    assert_int_equal(s->mesh[0].normals, 3);
+    assert_true(s->mesh[0].smooth && s->mesh[0].mapped);
+    assert_int_equal(s->mesh[0].corner_normal[0][0], MESH_NONE);
+    assert_int_equal(s->shape[1].mesh, 0);
+    assert_int_equal(s->shape[1].kind, BRUME_SHAPE_MESH);
+    assert_int_equal(s->mesh[1].triangles, 1);
+    NUMBERS(s->mesh[1].position[2], 0, 1, 0);
+    assert_true(s->mesh[2].smooth && !s->mesh[1].smooth);
+    expect_error("mesh { }", BRUME_ERR_SCENE, 1, 1, "no triangles");
+    expect_error("mesh { triangle { 0, x, y scale 2 } }", BRUME_ERR_SCENE, 1,
+                 8, "transformed");
+    expect_error("mesh { triangle { 0, x, y texture { } } }", BRUME_ERR_SCENE,
+                 1, 27, "not supported yet");
+    expect_error("mesh { triangle { 0, x } }", BRUME_ERR_SCENE, 1, 24,
+                 "third corner");
+    expect_error("mesh { triangle { 0, x, y } inside_vector 0 }",
+                 BRUME_ERR_SCENE, 1, 29, "no direction");
+}
+
+static void mesh2s(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "mesh2 {\n"
+        "  vertex_vectors { 4, <0,0,0>, <1,0,0>, <0,1,0>, <1,1,0> }\n"
+        "  normal_vectors { 4, z, z, z, z }\n"
+        "  uv_vectors { 1 <0, 0> }\n"
+        "  face_indices { 2, <0,1,2>, <1,2,3>, }\n"
+        "  uv_indices { 2, <0,0,0>, <0,0,0> }\n"
+        "}\n"
+        "mesh2 {\n"
+        "  vertex_vectors { 3 <0,0,0> <1,0,0> <0,1,0> }\n"
+        "  normal_vectors { 1 z }\n"
+        "  face_indices { 2 <0,1,2> <0,1,2> }\n"
+        "  normal_indices { 1 <0,0,0> }\n"
+        "}\n");
+    assert_int_equal(s->mesh[0].triangles, 2);
+    assert_true(s->mesh[0].smooth && s->mesh[0].mapped);
+    assert_int_equal(s->mesh[0].corner_normal[1][2], 3);
+    assert_true(s->mesh[1].smooth && !s->mesh[1].mapped);
+    assert_int_equal(s->mesh[1].corner_normal[0][2], 0);
+    assert_int_equal(s->mesh[1].corner_normal[1][0], MESH_NONE);
+}
+
+static void mesh2s_that_are_wrong(void **state)
+{
+    (void)state;
+    expect_error("mesh2 { vertex_vectors { 3, 0, x } }", BRUME_ERR_SCENE, 1, 9,
+                 "announces 3 items but has 2");
+    expect_error("mesh2 { vertex_vectors { 1, 0, x } }", BRUME_ERR_SCENE, 1,
+                 32, "more");
+    expect_error("mesh2 { vertex_vectors { 3, 0, x, y } }", BRUME_ERR_SCENE, 1,
+                 1, "no face_indices");
+    expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
+                 "face_indices { 1, <0, 1, 3> } }", BRUME_ERR_SCENE, 1, 1, "");
+    expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
+                 "face_indices { 1, <0, 1, 2>, 0 } }", BRUME_ERR_SCENE, 2, 30,
+                 "not supported yet");
+    expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
+                 "normal_vectors { 1, z } face_indices { 1, <0, 1, 2> } }",
+                 BRUME_ERR_SCENE, 1, 1, "needs normal_indices");
+}
+
+/* ---- surfaces ---------------------------------------------------------- */
+
+static const struct brume_material *material_of(const char *modifiers)
+{
+    char text[1000];
+
+    snprintf(text, sizeof text, "sphere { 0, 1 %s }", modifiers);
+    const brume_scene *s = scene(text);
+    assert_int_equal(s->shape[0].material, 0);
+    return &s->material[0];
+}
+
+static void finishes(void **state)
+{
+    (void)state;
+    const struct brume_material *m = material_of(
+        "pigment { rgbft <.1, .2, .3, .4, .5> } finish { ambient rgb <1, 2, 3>"
+        " emission 4 diffuse 5 brilliance 6 phong 7 phong_size 8 specular 9"
+        " roughness .5 metallic }");
+    NUMBERS(m->color[0], 0.1, 0.2, 0.3, 0.4, 0.5);
+    NUMBERS(m->ambient, 1, 2, 3);
+    NUMBERS(m->emission, 4, 4, 4);
+    NUMBERS(&m->diffuse, 5, 6, 7, 8, 9, 0.5, 1);
+    m = material_of("finish { metallic .5 }");
+    NUMBERS(&m->diffuse, 0.6, 1, 0, 40, 0, 0.05, 0.5);
+    expect_error("sphere { 0, 1 finish { roughness 0 } }", BRUME_ERR_SCENE, 1,
+                 34, "'roughness' is 0, must be greater than 0");
+    expect_error("sphere { 0, 1 finish { diffuse <1, 2> } }", BRUME_ERR_SCENE,
+                 1, 32, "'diffuse' needs a float");
+}
+
+static void pigments(void **state)
+{
+    (void)state;
+    const struct brume_material *m = material_of("pigment { checker }");
+    NUMBERS(m->color[0], 0, 0, 1, 0, 0);
+    NUMBERS(m->color[1], 0, 1, 0, 0, 0);
+    m = material_of("pigment { checker rgb 1 }");
+    NUMBERS(m->color[0], 1, 1, 1, 0, 0);
+    NUMBERS(m->color[1], 0, 1, 0, 0, 0);
+    m = material_of("pigment { checker color rgb 1, color rgb .5 scale 2 } "
+                    "translate x");
+    assert_int_equal(m->pigment, BRUME_PIGMENT_CHECKER);
+    NUMBERS(m->pigment_transform[0], 2, 0, 0, 1);
+    m = material_of("translate x pigment { checker } pigment { scale 2 }");
+    NUMBERS(m->pigment_transform[0], 2, 0, 0, 0);
+    m = material_of("pigment { rgb 1 quick_color rgb 0 }");
+    assert_int_equal(diag.warnings, 1);
+    expect_error("sphere { 0, 1 pigment { rgb 1, rgb 0 } }", BRUME_ERR_SCENE,
+                 1, 32, "1 color");
+}
+
+static void textures(void **state)
+{
+    (void)state;
+    const struct brume_material *m = material_of(
+        "texture { pigment { checker } scale 2 finish { ambient 1 } }\n"
+        "finish { diffuse 0 }");
+    NUMBERS(m->ambient, 1, 1, 1);
+    NUMBERS(&m->diffuse, 0);
+    NUMBERS(m->pigment_transform[0], 2, 0, 0, 0);
+    const brume_scene *s = scene(
+        "#declare P = pigment { rgb x }\n"
+        "#declare F = finish { ambient .5 }\n"
+        "#declare T = texture { P F }\n"
+        "#declare I = T\n"
+        "sphere { 0, 1 texture { I finish { diffuse .25 } } }\n"
+        "sphere { 0, 1 pigment { P } finish { F phong 1 } }\n"
+        "sphere { 0, 1 texture { T } texture { pigment { rgb y } } }\n");
+    NUMBERS(s->material[0].color[0], 1, 0, 0, 0, 0);
+    NUMBERS(s->material[0].ambient, 0.5, 0.5, 0.5);
+    NUMBERS(&s->material[0].diffuse, 0.25);
+    NUMBERS(&s->material[1].phong, 1);
+    NUMBERS(s->material[2].color[0], 0, 1, 0, 0, 0);
+    NUMBERS(s->material[2].ambient, 0.1, 0.1, 0.1);
+    expect_error("sphere { 0, 1 texture { } texture { pigment { rgbt .5 } } }",
+                 BRUME_ERR_SCENE, 1, 27, "layered");
+}
+
+static void defaults(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare S = sphere { 0, 1 }\n"
+        "sphere { 0, 1 }\n"
+        "#default { pigment { rgb x } finish { ambient 1 } }\n"
+        "sphere { 0, 1 texture { finish { diffuse 0 } } }\n"
+        "#default { texture { pigment { rgb y } } }\n"
+        "object { S }\n");
+    NUMBERS(s->material[0].color[0], 0, 0, 0, 0, 0);
+    NUMBERS(s->material[1].color[0], 1, 0, 0, 0, 0);
+    NUMBERS(s->material[1].ambient, 1, 1, 1);
+    NUMBERS(s->material[2].color[0], 0, 1, 0, 0, 0);
+    NUMBERS(s->material[2].ambient, 1, 1, 1);
+}
+
+/* A declaration inside of a statement does not begin with that statement's
+ * pigment. */
+static void declarations_inside_of_statements(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "sphere { 0, 1 pigment { rgb x }\n"
+        "  #declare P = pigment { scale 2 }\n"
+        "  #declare C = sphere { 0, 2 }\n"
+        "  finish { ambient 1 } }\n"
+        "sphere { 0, 1 pigment { P } } object { C }\n");
+    NUMBERS(s->material[0].color[0], 1, 0, 0, 0, 0);
+    NUMBERS(s->material[0].ambient, 1, 1, 1);
+    NUMBERS(s->material[1].color[0], 0, 0, 0, 0, 0);
+    assert_int_equal(s->shapes, 3);
+}
+
+/* ---- global settings --------------------------------------------------- */
+
+static void globals(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "global_settings { ambient_light rgb <1, 2, 3> assumed_gamma 1\n"
+        "  max_trace_level 10 adc_bailout .01 integrator path\n"
+        "  accuracy .02 time_limit 5 }\n");
+    NUMBERS(s->globals.ambient_light, 1, 2, 3);
+    assert_false(s->globals.media_multiple || s->globals.surfaces_indirect ||
+                 s->globals.environment || s->globals.physical_units);
+    assert_true(result.has_integrator && result.assumed_gamma == 1);
+    NUMBERS(&result.accuracy, 0.02, 5);
+    expect_error("global_settings { integrator photon }", BRUME_ERR_SCENE, 1,
+                 30, "'photon' is not supported yet");
+    expect_error("global_settings { max_trace_level 257 }", BRUME_ERR_SCENE,
+                 1, 35, "at most 256");
+    expect_warning("global_settings { assumed_gamma 2.2 }", 1, 19, "2.2");
+}
+
+static void check_transport(const char *text, bool media, bool surfaces,
+                            bool environment)
+{
+    const brume_scene *s = scene(text);
+
+    assert_int_equal(s->globals.media_multiple, media);
+    assert_int_equal(s->globals.surfaces_indirect, surfaces);
+    assert_int_equal(s->globals.environment, environment);
+}
+
+static void transports(void **state)
+{
+    (void)state;
+    check_transport("global_settings { transport { media multiple\n"
+                    "  surfaces indirect environment on } }", true, true,
+                    true);
+    check_transport("global_settings { light_units physical }", true, true,
+                    true);
+    assert_true(result.scene->globals.physical_units);
+    check_transport("global_settings { light_units physical\n"
+                    "  transport { media single environment off } }", false,
+                    true, false);
+    check_transport("global_settings { light_units pov }", false, false,
+                    false);
+    assert_true(parse("global_settings { transport { surfaces direct } }",
+                      true));
+    assert_true(result.scene->globals.media_multiple &&
+                !result.scene->globals.surfaces_indirect &&
+                result.scene->globals.environment);
+}
+
+/* Words of Brume's own are names where a scene declares them. */
+static void extension_words_can_be_names(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare fire = 2; #declare intensity = 3; #declare path = x;\n"
+        "sphere { path, fire*intensity }\n");
+    NUMBERS(&s->shape[0].radius, 6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cameras),
+        cmocka_unit_test(lights),
+        cmocka_unit_test(backgrounds),
+        cmocka_unit_test(shapes),
+        cmocka_unit_test(shapes_that_are_wrong),
+        cmocka_unit_test(transformations),
+        cmocka_unit_test(unions_hand_down),
+        cmocka_unit_test(declared_objects_are_copied),
+        cmocka_unit_test(unions_nest_deep),
+        cmocka_unit_test(meshes),
+        cmocka_unit_test(mesh2s),
+        cmocka_unit_test(mesh2s_that_are_wrong),
+        cmocka_unit_test(finishes),
+        cmocka_unit_test(pigments),
+        cmocka_unit_test(textures),
+        cmocka_unit_test(defaults),
+        cmocka_unit_test(declarations_inside_of_statements),
+        cmocka_unit_test(globals),
+        cmocka_unit_test(transports),
+        cmocka_unit_test(extension_words_can_be_names),
+    };
+
+    return cmocka_run_group_tests_name("build", tests, NULL,
+                                       forget_scene);
+}
