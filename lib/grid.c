@@ -87,7 +87,7 @@ static void *grow(void *array, size_t count, size_t size,
     if (count & (count - 1))
         return array;
     size_t capacity = count, wanted = count > 0 ? 2 * count : 1;
-    return memory_grow(count > 0 ? array : NULL, &capacity, wanted, size, err);
+    return memory_grow(array, &capacity, wanted, size, err);
 }
 
 float *grid_brick(struct grid *g, int bx, int by, int bz,

@@ -117,6 +117,22 @@ static void test_grid__finish_merges_constants(void **state)
     grid_free(g);
 }
 
+/* A copy of a grid without stored bricks grows like any other. */
+static void test_grid__copy_is_independent(void **state)
+{
+    (void)state;
+    struct grid *g = make(2);
+    grid_finish(g);
+    struct grid *copy = grid_copy(g, NULL);
+    assert_non_null(copy);
+    for (int i = 0; i < 3; i++)
+        brick(copy, i, 0, 0)[i] = 9;
+    assert_true(grid_sample(copy, 1, 0, 16) == 9);
+    assert_true(grid_sample(g, 1, 0, 16) == 2);
+    grid_free(copy);
+    grid_free(g);
+}
+
 static void test_grid__absurd_extents_are_refused(void **state)
 {
     (void)state;
@@ -144,6 +160,7 @@ int main(void)
         cmocka_unit_test(test_grid__brick_of_a_tile_has_its_value),
         cmocka_unit_test(test_grid__finish_cleans_and_counts),
         cmocka_unit_test(test_grid__finish_merges_constants),
+        cmocka_unit_test(test_grid__copy_is_independent),
         cmocka_unit_test(test_grid__absurd_extents_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
