@@ -129,6 +129,30 @@ bool mesh_add_triangle(struct mesh *m, const uint32_t corner[3],
     return true;
 }
 
+static bool usable_normal(const struct mesh *m, uint32_t index)
+{
+    if (index >= m->normals)
+        return false;
+    const float *n = m->normal[index];
+    double square = (double)n[0] * n[0] + (double)n[1] * n[1] +
+                    (double)n[2] * n[2];
+    return isfinite(square) && square > 0;
+}
+
+void mesh_mend(struct mesh *m)
+{
+    for (size_t t = 0; m->corner_normal && t < m->triangles; t++)
+        for (int c = 0; c < 3; c++)
+            if (!usable_normal(m, m->corner_normal[t][c])) {
+                memcpy(m->corner_normal[t], no_corners, sizeof no_corners);
+                break;
+            }
+    for (size_t i = 0; i < m->uvs; i++)
+        for (int k = 0; k < 2; k++)
+            if (!isfinite(m->uv[i][k]))
+                m->uv[i][k] = 0;
+}
+
 static bool check_corner(size_t triangle, const char *what, uint32_t index,
                          size_t count, struct brume_error *err)
 {

@@ -41,4 +41,9 @@ bool mesh_add_triangle(struct mesh *m, const uint32_t corner[3],
 /* False with err set when a triangle names an item that is not there or a
  * position is not finite. */
 bool mesh_check(const struct mesh *m, struct brume_error *err);
+
+/* Triangles with a vertex normal that is zero or not finite lose theirs
+ * (MESH_NONE); texture coordinates that are not finite become 0. Programs
+ * write such values for slivers, and a mesh need not be refused for them. */
+void mesh_mend(struct mesh *m);
 #endif
