@@ -11,6 +11,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/output.h"
+#include "lib/progress.h"
 #include "lib/thread.h"
 
 static char folder[] = "/tmp/brume-test-output-XXXXXX";
@@ -169,6 +170,58 @@ static void test_thread__cancel_stops(void **state)
     assert_int_equal(job.runs[11], 0);
 }
 
+/* ---- progress.h ---- */
+
+static void test_progress__line_tells_what_is_left(void **state)
+{
+    (void)state;
+    char text[200];
+    struct progress_report r = { "march", 0.25, 2.4e7, "photons" };
+    progress_line(&r, 20, text, sizeof text);
+    assert_string_equal(text, "march       25 %  0:20, 1:00 left, "
+                              "1.2 M photons/s");
+    r = (struct progress_report){ "gather", 0, 0, NULL };
+    progress_line(&r, 4000, text, sizeof text);
+    assert_string_equal(text, "gather       0 %  1:06:40, ? left");
+}
+
+static void test_progress__json_is_one_object_a_line(void **state)
+{
+    (void)state;
+    char text[200];
+    struct progress_report r = { "march", 0.5, 100, "rays" };
+    progress_json(&r, 2, text, sizeof text);
+    assert_string_equal(text, "{\"stage\":\"march\",\"fraction\":0.500000,"
+                              "\"elapsed_s\":2.000,\"left_s\":2.000,"
+                              "\"rate\":50,\"unit\":\"rays\"}\n");
+}
+
+/* Of a thousand reports in a moment: the first of each stage and the last. */
+static void test_progress__shows_few_reports(void **state)
+{
+    (void)state;
+    int ends[2];
+    char text[4096];
+    struct progress p;
+    assert_int_equal(pipe(ends), 0);
+    progress_init(&p, PROGRESS_LINE, ends[1]);
+    assert_int_equal(p.mode, PROGRESS_OFF);
+    progress_init(&p, PROGRESS_JSON, ends[1]);
+    for (int i = 0; i <= 1000; i++) {
+        struct progress_report r = { i < 500 ? "emit" : "march",
+                                     i / 1000.0, i, "photons" };
+        progress_update(&p, &r);
+    }
+    progress_clear(&p);
+    close(ends[1]);
+    ssize_t size = read(ends[0], text, sizeof text);
+    close(ends[0]);
+    int lines = 0;
+    for (ssize_t i = 0; i < size; i++)
+        lines += text[i] == '\n';
+    assert_in_range(lines, 3, 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -179,6 +232,9 @@ int main(void)
         cmocka_unit_test(test_output__full_disk_is_an_error),
         cmocka_unit_test(test_thread__runs_each_index_once),
         cmocka_unit_test(test_thread__cancel_stops),
+        cmocka_unit_test(test_progress__line_tells_what_is_left),
+        cmocka_unit_test(test_progress__json_is_one_object_a_line),
+        cmocka_unit_test(test_progress__shows_few_reports),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
