@@ -226,6 +226,7 @@ static void test_vdb__grids_are_chosen_by_name(void **state)
         { { "heat", "smoke" }, VDB_DENSITY, "smoke" },
         { { "cloud" }, VDB_DENSITY, "cloud" },
         { { "cloud", "fog" }, VDB_DENSITY, NULL },
+        { { "surface", "fog" }, VDB_DENSITY, "fog" },
         { { "heat", "temperature" }, VDB_TEMPERATURE, "temperature" },
         { { "density", "heat" }, VDB_TEMPERATURE, "heat" },
         { { "density" }, VDB_TEMPERATURE, NULL },
@@ -240,6 +241,8 @@ static void test_vdb__grids_are_chosen_by_name(void **state)
             snprintf(entry[list.count].name, sizeof entry->name, "%s",
                      cases[i].held[list.count]);
             entry[list.count].scalar = true;
+            if (strcmp(cases[i].held[list.count], "surface") == 0)
+                entry[list.count].kind = VDB_LEVEL_SET;
         }
         struct brume_error err = { 0 };
         const struct vdb_entry *e = vdb_choose(&list, cases[i].role, "x.vdb",
