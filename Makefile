@@ -36,8 +36,8 @@ PACKAGES := OpenEXR libpng jansson
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE \
             $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 # Debian has no .pc file for OpenVDB.
-LIBS    := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) \
-           -lopenvdb -ltbb -lstdc++ -lm -pthread
+OTHER_LIBS := -lopenvdb -ltbb -lstdc++ -lm -pthread
+LIBS    := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
 
 # $(call run,VERB,COMMAND): the command, shown as a short line unless V=1.
 define run
@@ -68,8 +68,7 @@ endif
 .SECONDARY:
 .PHONY: all unit tools setup demo test test-all do-demo do-test do-test-all \
         lint format install bundle clean
-PROGRAM  := $(if $(wildcard parser/main.c),$(B)/brume)
-all: $(PROGRAM)
+all: $(B)/brume
 
 $(B)/brume: $(PARSER) $(B)/libbrume.a
 	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS))
@@ -123,10 +122,10 @@ do-demo: $(B)/brume
 	$(B)/brume scenes/quickstart.pov +W640 +H480 +O$(B)/demo/quickstart.png
 	@echo 'The pictures are $(B)/demo/quickstart.exr and .png.'
 
-do-test: $(PROGRAM) $(UNITS) $(TOOLS)
+do-test: $(B)/brume $(UNITS) $(TOOLS)
 	@B=$(B) tests/run
 
-do-test-all: $(PROGRAM) $(UNITS) $(TOOLS)
+do-test-all: $(B)/brume $(UNITS) $(TOOLS)
 	@B=$(B) tests/run --all
 
 # ---- house-keeping
@@ -142,29 +141,30 @@ HEADERS := core/brume.h lib/error.h lib/grid.h lib/mesh.h
 VERSION  = $(shell sed -n 's/^\#define BRUME_VERSION "\(.*\)"/\1/p' core/brume.h)
 ROOT     = $(DESTDIR)$(PREFIX)
 install: $(B)/brume
-	install -D -t $(ROOT)/bin $(B)/brume
-	install -D -m644 -t $(ROOT)/lib $(B)/libbrume.a
-	install -d $(ROOT)/include/brume $(ROOT)/lib/pkgconfig
-	for h in $(HEADERS); do sed 's|"\(core\|lib\)/|"|' $$h \
+	@install -D -t $(ROOT)/bin $(B)/brume
+	@install -D -m644 -t $(ROOT)/lib $(B)/libbrume.a
+	@install -d $(ROOT)/include/brume $(ROOT)/lib/pkgconfig
+	@for h in $(HEADERS); do sed 's,"lib/,",' $$h \
 	    >$(ROOT)/include/brume/$${h##*/} || exit; done
-	printf '%s\n' 'prefix=$${pcfiledir}/../..' 'Name: brume' \
+	@printf '%s\n' 'prefix=$${pcfiledir}/../..' 'Name: brume' \
 	    'Description: renderer of scenes with participating media' \
 	    'Version: $(VERSION)' 'Requires: $(PACKAGES)' \
 	    'Cflags: -I$${prefix}/include' \
-	    'Libs: -L$${prefix}/lib -lbrume $(filter-out $(shell pkg-config --libs $(PACKAGES)),$(LIBS))' \
+	    'Libs: -L$${prefix}/lib -lbrume $(OTHER_LIBS)' \
 	    >$(ROOT)/lib/pkgconfig/brume.pc
-	for m in man/*.[1-8]; do install -D -m644 -t \
+	@for m in $(wildcard man/*.[1-8]); do install -D -m644 -t \
 	    $(ROOT)/share/man/man$${m##*.} $$m || exit; done
-	cd scenes && find . -type f -exec install -D -m644 {} \
+	@cd scenes && find . -type f -exec install -D -m644 {} \
 	    $(abspath $(ROOT))/share/brume/scenes/{} \;
+	@echo '  installed	$(ROOT)'
 
 # A folder that runs from any place on any x86-64 Linux with glibc >= 2.36.
 bundle: $(B)/brume
-	rm -rf $(B)/bundle
-	$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(B)/bundle
-	$(C) $(CFLAGS) -s -o $(B)/bundle/bin/brume $(PARSER) $(B)/libbrume.a \
+	@rm -rf $(B)/bundle
+	@$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(B)/bundle
+	@$(C) $(CFLAGS) -s -o $(B)/bundle/bin/brume $(PARSER) $(B)/libbrume.a \
 	    $(LDFLAGS) $(LIBS) -Wl,--disable-new-dtags,-rpath,'$$ORIGIN/../lib'
-	.ci/bundle $(B)/bundle
+	@.ci/bundle $(B)/bundle
 
 clean:
 	rm -rf build
