@@ -33,11 +33,12 @@ CPP     := $(CXX) -std=c++17 $(COMMON)
 CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
 
 PACKAGES := OpenEXR libpng jansson
-CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE \
-            $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
+CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE
+C       += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
+CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 # Debian has no .pc file for OpenVDB.
 OTHER_LIBS := -lopenvdb -ltbb -lstdc++ -lm -pthread
-LIBS    := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
+LIBS     = $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
 
 # $(call run,VERB,COMMAND): the command, shown as a short line unless V=1.
 define run
@@ -61,7 +62,7 @@ TOOLS    := $(call programs,tests/tools)
 ifneq ($(CUDA_SRC),)
 CORE     += $(call objects,$(CUDA_SRC))
 CPPFLAGS += -DBRUME_CUDA
-LIBS     += -lcudart_static -ldl -lrt
+OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static -ldl -lrt
 endif
 
 .DELETE_ON_ERROR:
