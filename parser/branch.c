@@ -59,13 +59,14 @@ static void leave(struct expander *expander, uint32_t opener)
 
 static bool count_iteration(struct expander *expander, uint32_t opener)
 {
-    struct parser *parser = expander->parser;
-    uint64_t most = parser->limits.iterations;
-    return ++expander->iterations <= most
-        || parser_fail(parser, BRUME_ERR_LIMIT,
-                       token_location(token_at(expander, opener)), NULL,
-                       "the loops of the scene run more than %llu times",
-                       (unsigned long long)most);
+    struct location at = token_location(token_at(expander, opener));
+    uint64_t most = expander->parser->limits.iterations;
+    if (++expander->iterations > most) {
+        return parser_fail(expander->parser, BRUME_ERR_LIMIT, at, NULL,
+                           "the loops of the scene run more than %llu times",
+                           (unsigned long long)most);
+    }
+    return expand_tick(expander, at);
 }
 
 /* The variable of the innermost #for; NULL: it is no float any more. */

@@ -116,7 +116,7 @@ struct expander {
     struct value hold_value;
     struct value result;            /* of the last parser that finished    */
     int count;
-    uint64_t tokens, iterations;
+    uint64_t tokens, iterations, ticks;
     double deadline;                /* of timer_now; 0: none               */
 };
 
@@ -136,6 +136,8 @@ static inline struct token *expand_peek(const struct expander *expander)
     return &frame->source->token[frame->next];
 }
 
+/* Asks now and then whether to go on: of the clock and of the caller. */
+bool expand_tick(struct expander *expander, struct location at);
 /* Takes the next token if it is of that kind. */
 bool expand_take(struct expander *expander, int kind);
 /* Takes the next token, which must be of that kind. */

@@ -156,19 +156,14 @@ static bool finish(struct expander *expander)
     }
 }
 
-static bool within_limits(struct expander *expander, struct location at)
+bool expand_tick(struct expander *expander, struct location at)
 {
     enum { CHECK = 4096 };
     struct parser *parser = expander->parser;
-    if (++expander->tokens % CHECK != 0) {
+    const struct parse_input *in = parser->in;
+    if (++expander->ticks % CHECK != 0) {
         return true;
     }
-    if (expander->tokens > parser->limits.tokens) {
-        return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "the scene has "
-                           "more than %llu tokens", (unsigned long long)
-                           parser->limits.tokens);
-    }
-    const struct parse_input *in = parser->in;
     if (in->stopped && in->stopped(in->user)) {
         return parser_fail(parser, BRUME_STOPPED, at, NULL, "stopped while "
                            "reading the scene");
@@ -179,6 +174,17 @@ static bool within_limits(struct expander *expander, struct location at)
                            parser->limits.seconds);
     }
     return true;
+}
+
+static bool count_token(struct expander *expander, struct location at)
+{
+    uint64_t most = expander->parser->limits.tokens;
+    if (++expander->tokens > most) {
+        return parser_fail(expander->parser, BRUME_ERR_LIMIT, at, NULL,
+                           "the scene has more than %llu tokens",
+                           (unsigned long long)most);
+    }
+    return expand_tick(expander, at);
 }
 
 static void count_brackets(struct pending *pending, int kind)
@@ -198,7 +204,7 @@ static bool push(struct expander *expander, int kind,
     enum { ACCEPTED = 0 };
     struct parser *parser = expander->parser;
     struct pending *pending = innermost(expander);
-    if (!within_limits(expander, at)) {
+    if (!count_token(expander, at)) {
         return false;
     }
     if (kind != TOK_END) {
@@ -521,6 +527,11 @@ struct location expander_place(const struct parser *parser)
 {
     return parser->expander ? parser->expander->place
         : (struct location){0, UINT32_MAX};
+}
+
+uint64_t expander_tokens(const struct parser *parser)
+{
+    return parser->expander->tokens;
 }
 
 int expander_depth(const struct parser *parser)

@@ -19,6 +19,9 @@ void expander_count(struct parser *parser, int count);
 /* The directive under way, for diagnostics without a better place. */
 struct location expander_place(const struct parser *parser);
 
+/* How many tokens were pushed so far. */
+uint64_t expander_tokens(const struct parser *parser);
+
 /* The texts and macros being read besides the scene itself, innermost first:
  * where each was included or called; `macro` is NULL for a text. */
 struct expander_call {

@@ -798,6 +798,5 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
                           const char *text)
 {
     (void)text;
-    parser_fail(parser, BRUME_ERR_LIMIT, *at, NULL, "brackets are nested "
-                "deeper than %d", GRAMMAR_DEPTH);
+    report_exhausted(parser, *at, GRAMMAR_DEPTH);
 }

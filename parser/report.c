@@ -158,6 +158,17 @@ bool report_no_memory(struct parser *parser)
         : parser_fail(parser, BRUME_ERR_MEMORY, at, NULL, "out of memory");
 }
 
+void report_exhausted(struct parser *parser, struct location at, int depth)
+{
+    /* There may be some more symbols on the stack than tokens. */
+    if (expander_tokens(parser) < (uint64_t)depth / 4) {
+        parser_fail(parser, BRUME_ERR_MEMORY, at, NULL, "out of memory");
+    } else {
+        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "brackets are nested "
+                    "deeper than %d", depth);
+    }
+}
+
 static void *memory_or_report(struct parser *parser, void *block)
 {
     if (!block) {

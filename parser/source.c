@@ -1,6 +1,7 @@
 #include "parser/source.h"
 #include "lib/memory.h"
 #include "parser/lexer.h"
+#include "parser/report.h"
 #include "parser/utf8.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -27,6 +28,7 @@ static struct source *add(struct parser *parser, struct location at,
     struct source *source = parser_alloc(parser, sizeof *source);
     if (!source || !arena_grow(&parser->arena, &table, &parser->source_room,
                                parser->sources + 1, sizeof source)) {
+        report_no_memory(parser);
         return NULL;
     }
     const char *slash = strrchr(name, '/');
@@ -36,6 +38,7 @@ static struct source *add(struct parser *parser, struct location at,
     source->folder = arena_copy(&parser->arena, name,
                                 slash ? (size_t)(slash - name) + 1 : 0);
     if (!source->name || !source->folder) {
+        report_no_memory(parser);
         return NULL;
     }
     parser->source[parser->sources++] = source;

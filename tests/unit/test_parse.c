@@ -116,6 +116,7 @@ static void find_cases(const char *folder)
         snprintf(path, sizeof path, "%s/%s", folder, files[i]);
         files[i][strlen(files[i]) - 4] = 0;
         cut_cases(files[i], read_file(path));
+        free(files[i]);
     }
 }
 
