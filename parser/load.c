@@ -5,6 +5,8 @@
 #include "lib/df3.h"
 #include "lib/grid.h"
 #include "lib/mesh.h"
+#include "lib/obj.h"
+#include "lib/ply.h"
 #include "parser/builder.h"
 
 struct loaded_grid {
@@ -16,6 +18,12 @@ struct loaded_grid {
     transform fit;              /* to_world's inverse, then its box to the
                                    unit cube                               */
     bool empty;                 /* there is no box                         */
+};
+
+struct loaded_mesh {
+    struct loaded_mesh *next;
+    const char *path;
+    struct model_mesh *mesh;
 };
 
 /* ---- the box of a grid ------------------------------------------------- */
@@ -244,10 +252,46 @@ bool load_density(struct parser *parser, const struct build_file *file,
 
 /* ---- meshes ------------------------------------------------------------ */
 
+static struct model_mesh *read_mesh(struct parser *parser,
+                                    const struct build_file *file,
+                                    const char *path)
+{
+    struct model_mesh *out = parser_alloc(parser, sizeof *out);
+    struct brume_error err = {0};
+
+    if (!out)
+        return NULL;
+    out->id = -1;
+    out->mesh = !strcmp(file->format, "ply") ? ply_load(path, &err)
+                                             : obj_load(path, &err);
+    if (!out->mesh) {
+        parser_relay(parser, file->at, &err);
+        return NULL;
+    }
+    out->next = parser->builder->meshes;
+    parser->builder->meshes = out;
+    return out;
+}
+
 struct model_mesh *load_mesh(struct parser *parser,
                              const struct build_file *file)
 {
-    parser_error(parser, file->at, "mesh files of format '%s' are not "
-                 "supported yet", file->format);
-    return NULL;
+    struct loaded_mesh *known = parser->builder->loader.meshes;
+    const char *path = parser_find_file(parser, file->at, file->name,
+                                        PARSER_DATA);
+
+    if (!path)
+        return NULL;
+    for (; known; known = known->next)
+        if (!strcmp(known->path, path))
+            return known->mesh;
+    struct model_mesh *mesh = read_mesh(parser, file, path);
+    struct loaded_mesh *entry = parser_alloc(parser, sizeof *entry);
+    if (!mesh || !entry)
+        return NULL;
+    entry->path = path;
+    entry->mesh = mesh;
+    entry->next = parser->builder->loader.meshes;
+    parser->builder->loader.meshes = entry;
+    return mesh;
 }

@@ -61,6 +61,9 @@ static void media_that_are_wrong(void **state)
                  BRUME_ERR_SCENE, 1, 44, "'reference' is 400");
     expect_error("media { fire { temperature { 1 } brightness loud } }",
                  BRUME_ERR_SCENE, 1, 45, "");
+    expect_error("media { fire { temperature { 1 } brightness single } }",
+                 BRUME_ERR_SCENE, 1, 45, "'brightness' must be physical, "
+                 "normalized, constant or total, not 'single'");
 }
 
 static void interiors(void **state)
@@ -309,8 +312,24 @@ static void files_that_are_wrong(void **state)
                  "not supported yet");
     expect_error("media { density { density_file vdb \"fire.vdb\" up x } }",
                  BRUME_ERR_SCENE, 1, 50, "y or z");
+    expect_error("mesh { ply \"none.ply\" }", BRUME_ERR_FILE, 1, 12,
+                 "none.ply");
     expect_warning("media { density { density_file vdb \"bad.vdb\" } }", 1, 36,
                    "1 NaN, 0 infinite and 1 negative");
+}
+
+static void mesh_files(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "mesh { ply \"one.ply\" pigment { rgb 1 } }\n"
+        "mesh { ply \"one.ply\" scale 2 } mesh { obj \"one.obj\" }\n");
+    assert_int_equal(s->meshes, 2);
+    assert_int_equal(s->mesh[0].triangles, 1);
+    assert_int_equal(s->shape[1].mesh, 0);
+    assert_int_equal(s->shape[2].mesh, 1);
+    expect_error("mesh { triangle { 0, x, y } ply \"one.ply\" }",
+                 BRUME_ERR_SCENE, 1, 33, "not both");
 }
 
 int main(void)
@@ -326,6 +345,7 @@ int main(void)
         cmocka_unit_test(vdb_files),
         cmocka_unit_test(vdb_boxes),
         cmocka_unit_test(files_that_are_wrong),
+        cmocka_unit_test(mesh_files),
     };
 
     return cmocka_run_group_tests_name("build_media", tests, make_files,
