@@ -156,6 +156,16 @@ struct value build_close(struct parser *parser, struct location at)
     return value_node(statement->makes, node);
 }
 
+const char *build_innermost(struct parser *parser, struct location *at)
+{
+    const struct frame *frame = build_top(parser);
+
+    if (!frame || frame->kind == BUILD_KINDS)
+        return NULL;
+    *at = frame->at;
+    return statement_of(frame)->word;
+}
+
 /* ---- what is said inside a statement ----------------------------------- */
 
 void build_misplaced(struct parser *parser, const struct frame *frame,
@@ -265,6 +275,12 @@ void build_choose(struct parser *parser, const struct name *word,
 
     if (row && param_choose(parser, row, frame->node, choice->text, at))
         note_set(parser, frame, row, at);
+}
+
+void build_later(struct parser *parser, const struct name *word,
+                 struct location at)
+{
+    parser_error(parser, at, "'%s' is not supported yet", word->text);
 }
 
 /* ---- maps -------------------------------------------------------------- */

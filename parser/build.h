@@ -23,6 +23,10 @@ void build_open(struct parser *parser, const char *word, struct location at);
  * none. */
 struct value build_close(struct parser *parser, struct location at);
 
+/* The keyword of the innermost open statement and where it stands; NULL if
+ * none is open. */
+const char *build_innermost(struct parser *parser, struct location *at);
+
 /* Around a value that a directive declares: the statement that the directive
  * happens to stand in is not around it. */
 void build_suspend(struct parser *parser);
@@ -41,6 +45,9 @@ void build_word(struct parser *parser, const struct name *word,
 /* or with another word: `brightness physical`. */
 void build_choose(struct parser *parser, const struct name *word,
                   const struct name *choice, struct location at);
+/* A word of Brume's own that has no meaning yet: an error that says so. */
+void build_later(struct parser *parser, const struct name *word,
+                 struct location at);
 /* A value that an inner statement made, or that an identifier stands for. */
 void build_apply(struct parser *parser, const struct value *value,
                  struct location at);

@@ -107,8 +107,8 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 /* Statements and their words. Words that are used alike share a token. */
 %token <name> CAMERA "'camera'" LIGHT_SOURCE "'light_source'"
 %token <name> BACKGROUND "'background'" GLOBAL_SETTINGS "'global_settings'"
-%token <name> SHAPE "a shape" MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
-%token <name> OBJECT "'object'" MESH_LIST "a list of mesh2"
+%token <name> SHAPE "shape" MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
+%token <name> OBJECT "'object'" MESH_LIST "list of a mesh2"
 %token <name> TEXTURE "'texture'" PIGMENT "'pigment'" FINISH "'finish'"
 %token <name> MATERIAL "'material'" INTERIOR "'interior'" MEDIA "'media'"
 %token <name> SCATTERING "'scattering'" DENSITY "'density'"
@@ -116,30 +116,26 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token <name> FIRE_FIELD "'temperature' or 'amount'"
 %token <name> TRANSFORM "'transform'" MATRIX "'matrix'"
 %token <name> TRANSPORT "'transport'"
-%token <name> MOVE "a transformation" INVERSE "'inverse'"
-%token <name> CAMERA_TYPE "a camera type" CAMERA_ITEM "a camera's vector"
+%token <name> MOVE "transformation" INVERSE "'inverse'"
+%token <name> CAMERA_TYPE "camera type" CAMERA_ITEM "camera item"
 %token <name> UP "'up'" RADIUS "'radius'" UV_VECTORS "'uv_vectors'"
-%token <name> LIGHT_TYPE "'spotlight'" LIGHT_ITEM "a light's item"
+%token <name> LIGHT_TYPE "'spotlight'" LIGHT_ITEM "light item"
 %token <name> LIGHT_SWITCH "'media_interaction'"
-%token <name> OBJECT_WORD "an object modifier" OBJECT_SWITCH "'hollow'"
+%token <name> OBJECT_WORD "object modifier" OBJECT_SWITCH "'hollow'"
 %token <name> MESH_FILE "'ply' or 'obj'" INSIDE_VECTOR "'inside_vector'"
 %token <name> CHECKER "'checker'" QUICK_COLOR "'quick_color'"
-%token <name> FINISH_ITEM "a finish's item" METALLIC "'metallic'"
+%token <name> FINISH_ITEM "finish item" METALLIC "'metallic'"
 %token <name> EMISSION "'emission'" ABSORPTION "'absorption'"
-%token <name> MEDIA_HINT "a sampling hint" SAMPLES "'samples'"
-%token <name> SCATTERING_ITEM "a scattering's item"
-%token <name> FILE_FORMAT "a format of density files"
+%token <name> MEDIA_HINT "sampling hint" SAMPLES "'samples'"
+%token <name> SCATTERING_ITEM "scattering item"
+%token <name> FILE_FORMAT "format of a density file"
 %token <name> INTERPOLATE "'interpolate'" FIT "'fit'"
-%token <name> KELVIN "'kelvin'" FIRE_ITEM "a fire's item"
-%token <name> BRIGHTNESS "'brightness'" BRIGHTNESS_WORD "a brightness"
-%token <name> COUPLING "'coupling'" ADDITIVE "'additive'"
-%token <name> PRESET "'preset'" PROGRAM "a program's name"
-%token <name> GLOBAL_ITEM "a global setting"
-%token <name> INTEGRATOR "'integrator'" INTEGRATOR_WORD "an integrator"
-%token <name> LIGHT_UNITS "'light_units'" POV "'pov'" PHYSICAL "'physical'"
-%token <name> MEDIA_WORD "'single' or 'multiple'"
-%token <name> SURFACES "'surfaces'" SURFACES_WORD "'direct' or 'indirect'"
-%token <name> ENVIRONMENT "'environment'"
+%token <name> KELVIN "'kelvin'" FIRE_ITEM "fire item"
+%token <name> FIRE_CHOICE "'brightness', 'coupling' or 'preset'"
+%token <name> GLOBAL_ITEM "global setting"
+%token <name> GLOBAL_CHOICE "'integrator' or 'light_units'"
+%token <name> SURFACES "'surfaces'" CHOICE "choice"
+%token <name> ENVIRONMENT "'environment'" LATER "word to come"
 
 /* An operand ends only where no operator follows: LOW is below them all. */
 %precedence LOW
@@ -159,7 +155,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %nterm <value> surface texture texture_item pigment finish material
 %nterm <value> material_item interior media density transform
 %nterm <name> camera_word light_word object_word list_word finish_word
-%nterm <name> media_word brightness coupling light_units
+%nterm <name> media_word choice
 %nterm <file> density_file
 
 %%
@@ -395,6 +391,8 @@ scene:
     %empty
   | scene placed                    { build_place(parser, &$2, @2); }
   | scene BACKGROUND open numbers '}' { build_close(parser, @5); }
+  | scene BACKGROUND open LATER
+        { build_later(parser, $4, @4); }
   | scene GLOBAL_SETTINGS open global_items '}' { build_close(parser, @5); }
   ;
 
@@ -714,17 +712,11 @@ fire_items:
         { build_set(parser, $2, @2, eval_pop(parser, $3), $3, @3); }
   | fire_items FIRE_ITEM expr %prec LOW
         { build_set(parser, $2, @2, &$3, 1, @3); }
-  | fire_items BRIGHTNESS brightness { build_choose(parser, $2, $3, @3); }
-  | fire_items COUPLING coupling    { build_choose(parser, $2, $3, @3); }
-  | fire_items PRESET PROGRAM       { build_choose(parser, $2, $3, @3); }
+  | fire_items FIRE_CHOICE choice   { build_choose(parser, $2, $3, @3); }
   ;
 
-brightness:
-    PHYSICAL | BRIGHTNESS_WORD
-  ;
-
-coupling:
-    ABSORPTION | ADDITIVE
+choice:
+    CHOICE | ABSORPTION
   ;
 
 /* ---- global_settings --------------------------------------------------- */
@@ -733,20 +725,16 @@ global_items:
     %empty
   | global_items GLOBAL_ITEM expr %prec LOW
         { build_set(parser, $2, @2, &$3, 1, @3); }
-  | global_items INTEGRATOR INTEGRATOR_WORD
+  | global_items GLOBAL_CHOICE choice
         { build_choose(parser, $2, $3, @3); }
-  | global_items LIGHT_UNITS light_units { build_choose(parser, $2, $3, @3); }
+  | global_items LATER              { build_later(parser, $2, @2); }
   | global_items TRANSPORT open transport_items '}' { build_close(parser, @5); }
-  ;
-
-light_units:
-    POV | PHYSICAL
   ;
 
 transport_items:
     %empty
-  | transport_items MEDIA MEDIA_WORD { build_choose(parser, $2, $3, @3); }
-  | transport_items SURFACES SURFACES_WORD { build_choose(parser, $2, $3, @3); }
+  | transport_items MEDIA choice { build_choose(parser, $2, $3, @3); }
+  | transport_items SURFACES choice { build_choose(parser, $2, $3, @3); }
   | transport_items ENVIRONMENT expr %prec LOW
         { build_set(parser, $2, @2, &$3, 1, @3); }
   ;

@@ -1,5 +1,6 @@
 #include "parser/param.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const struct param *param_find(const struct param *table, const char *word)
@@ -187,6 +188,24 @@ bool param_set(struct parser *parser, const struct param *row, void *node,
     return true;
 }
 
+/* Names the words that could have been chosen. */
+static bool wrong_choice(struct parser *parser, const struct param *row,
+                         const char *choice, struct location at)
+{
+    char words[200];
+    size_t used = 0;
+
+    if (row->kind != PARAM_CHOICE)
+        return parser_error(parser, at, "'%s' takes a number, not '%s'",
+                            row->word, choice);
+    for (int i = 0; row->choice[i] && used < sizeof words; i++)
+        used += (size_t)snprintf(
+            words + used, sizeof words - used, "%s%s",
+            i == 0 ? "" : row->choice[i + 1] ? ", " : " or ", row->choice[i]);
+    return parser_error(parser, at, "'%s' must be %s, not '%s'", row->word,
+                        words, choice);
+}
+
 bool param_choose(struct parser *parser, const struct param *row, void *node,
                   const char *choice, struct location at)
 {
@@ -196,5 +215,5 @@ bool param_choose(struct parser *parser, const struct param *row, void *node,
                 *(int *)((char *)node + row->offset) = i;
                 return true;
             }
-    return parser_error(parser, at, "'%s' cannot be '%s'", row->word, choice);
+    return wrong_choice(parser, row, choice, at);
 }

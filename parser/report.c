@@ -1,5 +1,6 @@
 /* report.c - diagnostics with the line, the trace and a hint. */
 #include "parser/report.h"
+#include "parser/build.h"
 #include "parser/expander.h"
 #include "parser/grammar.h"
 #include "parser/source.h"
@@ -135,11 +136,9 @@ bool parser_relay(struct parser *parser, struct location at,
                   const struct brume_error *err)
 {
     char text[TEXT + 600];
-    if (err->file[0] && err->line) {
-        snprintf(text, sizeof text, "%s:%d: %s", err->file, err->line,
-                 err->text);
-    } else if (err->file[0]) {
-        snprintf(text, sizeof text, "%s: %s", err->file, err->text);
+    /* The text names a data file that is at fault. */
+    if (err->line) {
+        snprintf(text, sizeof text, "%s (line %d)", err->text, err->line);
     } else {
         snprintf(text, sizeof text, "%s", err->text);
     }
@@ -303,14 +302,45 @@ static void write_found(struct parser *parser, char *text, size_t room,
     }
 }
 
+/* Tokens that, inside of a statement that has no room for them, tell that its
+ * end is missing. */
+static bool begins_another(int kind)
+{
+    static const int kinds[] = {
+        TOK_END, TOK_CAMERA, TOK_LIGHT_SOURCE, TOK_BACKGROUND,
+        TOK_GLOBAL_SETTINGS, TOK_SHAPE, TOK_MESH, TOK_MESH2, TOK_UNION,
+        TOK_OBJECT
+    };
+    return contains(kinds, sizeof kinds / sizeof *kinds, kind);
+}
+
+/* Asks for the '}' of the statement `word` that began at `began`. */
+static void report_open(struct parser *parser, struct location at,
+                        const char *got, const char *word,
+                        struct location began)
+{
+    char hint[128];
+    int line = source_locate(source_of(parser, began), began.offset).line;
+    snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d",
+             word, line);
+    parser_fail(parser, BRUME_ERR_SCENE, at, hint, "%s has no place in '%s'",
+                got, word);
+}
+
 void report_unexpected(struct parser *parser, struct location at, int found,
                        const int *expected, int count)
 {
     char wanted[TEXT / 2], got[128];
+    struct location began;
+    const char *word = build_innermost(parser, &began);
     write_expected(wanted, sizeof wanted, expected, count);
     write_found(parser, got, sizeof got, at, found);
-    if (*wanted) {
+    if (word && begins_another(found) && contains(expected, count, '}')) {
+        report_open(parser, at, got, word, began);
+    } else if (*wanted) {
         parser_error(parser, at, "expected %s, found %s", wanted, got);
+    } else if (word) {
+        parser_error(parser, at, "%s has no place in '%s'", got, word);
     } else {
         parser_error(parser, at, "%s has no place here", got);
     }

@@ -6,7 +6,7 @@
  *     the text of scene.pov
  *     -- file NAME          another text beside it
  *     -- set LIMIT NUMBER   a limit of struct parse_limits, or a predeclared
- *                           float
+ *                           float; `standard 1`: with scenes/include
  *     -- out                what #debug writes, a line end added if there
  *                           is none; without it, nothing
  *     -- diag               the diagnostics; without it, none
@@ -40,6 +40,7 @@ struct test_case {
     struct section *section;    /* the first one is the scene              */
 };
 
+static char *standard;          /* scenes/include                          */
 static struct test_case cases[2000];
 static size_t case_count;
 
@@ -181,6 +182,8 @@ static void set(struct parse_input *in, struct parse_declare *declare,
         in->limits.tokens = (uint64_t)value;
     } else if (strcmp(name, "memory") == 0) {
         in->limits.memory = (size_t)value;
+    } else if (strcmp(name, "standard") == 0) {
+        in->libraries = 2;
     } else if (strcmp(name, "clock") == 0) {
         in->ambient.clock = value;
     } else if (strcmp(name, "frame_number") == 0) {
@@ -224,7 +227,7 @@ static void run_case(void **state)
     size_t said_length, wrong_length;
     FILE *out = open_memstream(&said, &said_length);
     FILE *list = open_memstream(&wrong, &wrong_length);
-    const char *const library[] = {"library"};
+    const char *const library[] = {"library", standard};
     struct parse_declare declare = {0};
     struct parse_input in = {
         .path = "scene.pov", .library = library, .libraries = 1,
@@ -260,6 +263,7 @@ int main(int argc, char **argv)
 {
     char folder[] = "/tmp/test_parse.XXXXXX";
     find_cases(argc > 1 ? argv[1] : "tests/parse");
+    standard = realpath("scenes/include", NULL);
     if (!mkdtemp(folder) || chdir(folder) != 0 || mkdir("library", 0700)) {
         return 1;
     }
@@ -272,6 +276,7 @@ int main(int argc, char **argv)
     int failed = _cmocka_run_group_tests("parse", tests, case_count, NULL,
                                          NULL);
     free(tests);
+    free(standard);
     rmdir("library");
     return chdir("/") == 0 && rmdir(folder) == 0 ? failed : 1;
 }
