@@ -21,8 +21,9 @@ struct glow_job {
 static float point_weight(const struct glow_job *job, vec3 p)
 {
     const flat_scene *s = &job->flat->view;
-    rgb q = medium_source(s, job->medium, p,
-                          medium_density(s, job->medium, p));
+    field_point x = field_point_make(s, job->medium->lead, p);
+    rgb q = medium_source(s, job->medium, &x,
+                          medium_density(s, job->medium, &x));
     return fabsf(q.r) * 0.2126f + fabsf(q.g) * 0.7152f +
            fabsf(q.b) * 0.0722f;
 }

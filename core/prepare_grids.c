@@ -154,6 +154,19 @@ static bool add_grid(const struct prepare *job, const struct grid *g,
     return slot != NULL;
 }
 
+/* Grids of one file mostly lie alike: a point's place is then found once. */
+static void share_lattice(const struct flat *f, flat_field *out)
+{
+    out->lattice = (int32_t)(out - f->fields);
+    for (int32_t i = 0; i < out->lattice; i++)
+        if (f->fields[i].kind == FIELD_GRID &&
+            memcmp(&f->fields[i].to_index, &out->to_index,
+                   sizeof out->to_index) == 0) {
+            out->lattice = i;
+            return;
+        }
+}
+
 static bool add_field(const struct prepare *job, const struct brume_field *in,
                       struct brume_error *err)
 {
@@ -174,6 +187,7 @@ static bool add_field(const struct prepare *job, const struct brume_field *in,
         return brume_fail(err, BRUME_ERR_SCENE,
                           "a grid's place in the scene has no inverse");
     out->to_index = matrix_affine(&to_index);
+    share_lattice(job->flat, out);
     return true;
 }
 

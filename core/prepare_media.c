@@ -263,6 +263,9 @@ static bool make_lattice(const struct prepare *job, struct lattice *l,
     matrix shift = matrix_scale_move(1.0 / 8.0, back);
     shift = matrix_compose(&shift, &to_index);
     m->to_cell = matrix_affine(&shift);
+    m->lead = lead;
+    for (int i = 0; i < 3; i++)
+        m->origin[i] = (float)l->origin[i];
     double voxel = cbrt(fabs(matrix_determinant(&l->to_unit)));
     l->rate = (float)(SAMPLES_PER_VOXEL / voxel);
     m->outside = cell_bound(l, bound_beyond, lo, hi);
@@ -299,7 +302,7 @@ static void add_plane_field(const struct flat *f, flat_medium *m, int field)
     for (int i = 0; i < m->planes; i++) {
         const flat_field *b = &f->fields[m->plane_field[i]];
         if (f->grids[a->grid].nearest == f->grids[b->grid].nearest &&
-            memcmp(&a->to_index, &b->to_index, sizeof a->to_index) == 0)
+            a->lattice == b->lattice)
             return;
     }
     m->plane_field[m->planes++] = field;
@@ -367,7 +370,7 @@ static bool add_medium(const struct prepare *job,
     struct flat *f = job->flat;
     flat_medium m;
     memset(&m, 0, sizeof m);
-    m.glow = m.amount = m.temperature = -1;
+    m.glow = m.amount = m.temperature = m.lead = -1;
     set_coefficients(job, &m, in);
     m.densities = in->densities;
     for (int i = 0; i < in->densities; i++)

@@ -99,11 +99,12 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         const majorant_cell *bound = &w->part[i].bound;
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
-        float density = medium_density(job->s, m, p);
+        field_point x = lattice_point(job->s, &w->part[i], p, t);
+        float density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_scale(m->sigma_t, density));
         if (!job->emission || bound->rate == 0.0f)
             continue;
-        rgb q = medium_source(job->s, m, p, density);
+        rgb q = medium_source(job->s, m, &x, density);
         if (!rgb_is_black(q))
             q = rgb_scale(q, glow_ray_share(job->s, w->part[i].medium, p, t,
                                             job->p_dir));

@@ -9,11 +9,12 @@ enum { BRIGHTNESS_PHYSICAL, BRIGHTNESS_NORMALIZED, BRIGHTNESS_CONSTANT,
        BRIGHTNESS_TOTAL };
 
 /* Product of the medium's density fields. */
-HD float medium_density(const flat_scene *s, const flat_medium *m, vec3 p)
+HD float medium_density(const flat_scene *s, const flat_medium *m,
+                        const field_point *x)
 {
     float d = 1.0f;
     for (int i = 0; i < m->densities && d != 0.0f; i++)
-        d *= field_eval(s, m->density[i], p);
+        d *= field_eval(s, m->density[i], x);
     return d;
 }
 
@@ -45,27 +46,27 @@ HD rgb fire_color(const flat_scene *s, const flat_medium *m, float kelvin)
     return rgb_scale(c, scale);
 }
 
-HD rgb fire_source(const flat_scene *s, const flat_medium *m, vec3 p,
-                   float density)
+HD rgb fire_source(const flat_scene *s, const flat_medium *m,
+                   const field_point *x, float density)
 {
     if (!m->additive && density == 0.0f)
         return rgb_gray(0.0f);
-    float amount = m->amount >= 0 ? field_eval(s, m->amount, p) : 1.0f;
+    float amount = m->amount >= 0 ? field_eval(s, m->amount, x) : 1.0f;
     if (amount == 0.0f)
         return rgb_gray(0.0f);
     float kelvin = m->kelvin_offset +
-                   m->kelvin_scale * field_eval(s, m->temperature, p);
+                   m->kelvin_scale * field_eval(s, m->temperature, x);
     rgb c = rgb_scale(fire_color(s, m, kelvin), amount);
     return m->additive ? c : rgb_mul(c, rgb_scale(m->sigma_a, density));
 }
 
-/* Radiance per length that the medium emits at p, where its density is
+/* Radiance per length that the medium emits at x, where its density is
  * `density`. */
-HD rgb medium_source(const flat_scene *s, const flat_medium *m, vec3 p,
-                     float density)
+HD rgb medium_source(const flat_scene *s, const flat_medium *m,
+                     const field_point *x, float density)
 {
     rgb q = rgb_scale(m->emission, density);
-    return m->fire ? rgb_add(q, fire_source(s, m, p, density)) : q;
+    return m->fire ? rgb_add(q, fire_source(s, m, x, density)) : q;
 }
 
 #endif

@@ -70,7 +70,8 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->sigma_s[i] = rgb_gray(0.0f);
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
-        float density = medium_density(s, m, x);
+        field_point at = lattice_point(s, &w->part[i], x, t);
+        float density = medium_density(s, m, &at);
         p->count->lookups++;
         out->sigma_s[i] = rgb_scale(m->sigma_s, density);
         out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
@@ -78,7 +79,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
         if (bound->rate == 0.0f || p->straight)
             continue;
-        rgb q = medium_source(s, m, x, density);
+        rgb q = medium_source(s, m, &at, density);
         if (rgb_is_black(q))
             continue;
         float share = glow_ray_share(s, w->part[i].medium, x, t, p->p_dir);
@@ -206,12 +207,14 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
 HD float path_middle(const flat_scene *s, const path_state *p,
                      const media_walk *w)
 {
-    vec3 x = vec3_mad(p->o, 0.5f * (w->t + w->t_end), p->d);
-    float sum = 0.0f;
+    float t = 0.5f * (w->t + w->t_end), sum = 0.0f;
+    vec3 x = vec3_mad(p->o, t, p->d);
     for (int i = 0; i < w->count; i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
-        if (w->part[i].bound.density > 0.0f)
-            sum += rgb_max(m->sigma_s) * medium_density(s, m, x);
+        if (w->part[i].bound.density == 0.0f)
+            continue;
+        field_point at = lattice_point(s, &w->part[i], x, t);
+        sum += rgb_max(m->sigma_s) * medium_density(s, m, &at);
     }
     return sum;
 }
@@ -375,7 +378,8 @@ HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
     if (rgb_is_black(value))
         return;
     const flat_medium *m = &s->media[g.medium];
-    rgb q = medium_source(s, m, g.p, medium_density(s, m, g.p));
+    field_point x = field_point_make(s, m->lead, g.p);
+    rgb q = medium_source(s, m, &x, medium_density(s, m, &x));
     if (rgb_is_black(q))
         return;
     container_set set = p->inside;

@@ -34,6 +34,7 @@ typedef struct {
     int32_t kind, grid;
     float scale;            /* a constant's value                          */
     affine to_index;        /* unit space to the grid's index space        */
+    int32_t lattice;        /* the first field with the same to_index      */
 } flat_field;
 
 /* Bounds of a medium over one cell of its majorant lattice. */
@@ -60,7 +61,9 @@ typedef struct {
     float kelvin_scale, kelvin_offset;
     float intensity;        /* luminance factor included                   */
     int32_t brightness, additive;
+    int32_t lead;           /* the field whose grid the lattice follows    */
     affine to_cell;         /* unit space to lattice coordinates           */
+    float origin[3];        /* index of the lead grid = 8 cell + origin    */
     int32_t cells[3];
     uint64_t cell;          /* first of its majorant cells                 */
     majorant_cell outside;  /* bounds beyond the lattice                   */

@@ -40,23 +40,25 @@ HD float track_majorant(const flat_scene *s, const media_walk *w)
     return rgb_max(sum);
 }
 
-HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p)
+HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
+                     float t)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < w->count; i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
-        if (!m->uniform && w->part[i].bound.density > 0.0f)
-            sum = rgb_add(sum, rgb_scale(m->sigma_t,
-                                         medium_density(s, m, p)));
+        if (m->uniform || w->part[i].bound.density == 0.0f)
+            continue;
+        field_point x = lattice_point(s, &w->part[i], p, t);
+        sum = rgb_add(sum, rgb_scale(m->sigma_t, medium_density(s, m, &x)));
     }
     return sum;
 }
 
 /* One tentative collision; false when the product is dead. */
 HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
-                      float majorant, rng *r, rgb *product, track_counters *c)
+                      float t, float majorant, rng *r, rgb *product, track_counters *c)
 {
-    rgb sigma = track_sigma_t(s, w, p);
+    rgb sigma = track_sigma_t(s, w, p, t);
     c->lookups++;
     if (rgb_max(sigma) > majorant * 1.00001f)
         c->majorant_exceeded++;
@@ -101,7 +103,7 @@ HD rgb track_transmittance(const flat_scene *s, const container_set *set,
             }
             t += tau / majorant;
             tau = rng_optical_depth(r);
-            if (!track_collide(s, &w, vec3_mad(o, t, d), majorant, r,
+            if (!track_collide(s, &w, vec3_mad(o, t, d), t, majorant, r,
                                &product, c))
                 return rgb_gray(0.0f);
         }

@@ -151,6 +151,29 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
     w->t_end = hd_max(lattice_next(w), t);
 }
 
+HD float lattice_clamp(float x, int32_t cell)
+{
+    return hd_min(hd_max(x, (float)cell), (float)(cell + 1));
+}
+
+/* The point at distance t, in the current cell of the lattice however far the
+ * ray has come: the cell's bound holds for what is read there. */
+HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
+                             vec3 p, float t)
+{
+    const flat_medium *m = &s->media[w->medium];
+    if (!w->inside)
+        return field_point_make(s, m->lead, p);
+    vec3 q = vec3_mad(w->o, t, w->d);
+    field_point x;
+    x.p = p;
+    x.index = vec3_make(8.0f * lattice_clamp(q.x, w->cell[0]) + m->origin[0],
+                        8.0f * lattice_clamp(q.y, w->cell[1]) + m->origin[1],
+                        8.0f * lattice_clamp(q.z, w->cell[2]) + m->origin[2]);
+    x.lattice = s->fields[m->lead].lattice;
+    return x;
+}
+
 HD void walk_set_end(media_walk *w)
 {
     w->t_end = w->t_max;
