@@ -56,7 +56,8 @@ HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
 
 /* One tentative collision; false when the product is dead. */
 HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
-                      float t, float majorant, rng *r, rgb *product, track_counters *c)
+                      float t, float majorant, rng *r, rgb *product,
+                      track_counters *c)
 {
     rgb sigma = track_sigma_t(s, w, p, t);
     c->lookups++;
