@@ -16,7 +16,7 @@ void report_undeclared(struct parser *parser, struct location at,
 /* A token that is not one: TOK_BAD, TOK_UNSUPPORTED. */
 void report_bad(struct parser *parser, const struct token *token);
 
-/* The grammar's stack cannot grow: it is `depth` deep, or there is no memory. */
+/* The grammar's stack cannot grow: `depth` was reached, or memory. */
 void report_exhausted(struct parser *parser, struct location at, int depth);
 /* An arena gave NULL. Always false. */
 bool report_no_memory(struct parser *parser);
