@@ -310,7 +310,9 @@ static enum brume_code run_frame(struct reel *reel, int number)
     if (code != BRUME_STOPPED)
         report(reel, &diag);
     diag_release(&diag);
-    if (ok && !act_on(reel, &scene, &record, &err))
+    if (ok && events->stopped(events->user))
+        code = BRUME_STOPPED;
+    else if (ok && !act_on(reel, &scene, &record, &err))
         code = err.code == BRUME_STOPPED ? BRUME_STOPPED : fail(reel, &err);
     if (scene.scene)
         brume_scene_free(scene.scene);
