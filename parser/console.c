@@ -19,17 +19,31 @@ static bool open_files(struct console *c, struct brume_error *err)
     return true;
 }
 
+static enum progress_mode progress_mode(const struct options *options,
+                                        bool terminal)
+{
+    bool quiet = options->has_verbose && !options->verbose;
+    if (options->progress == OPTIONS_PROGRESS_JSON)
+        return PROGRESS_JSON;
+    if (options->progress == OPTIONS_PROGRESS_OFF || quiet || !terminal)
+        return PROGRESS_OFF;
+    return PROGRESS_LINE;
+}
+
 bool console_open(struct console *console, const struct options *options,
                   FILE *to, bool terminal, struct brume_error *err)
 {
     *console = (struct console){
         .options = options, .to = to, .terminal = terminal,
     };
+    progress_init(&console->progress, progress_mode(options, terminal),
+                  fileno(to));
     return open_files(console, err);
 }
 
 void console_close(struct console *console)
 {
+    progress_clear(&console->progress);
     for (int i = 0; i < OPTIONS_STREAMS; i++)
         if (console->file[i])
             fclose(console->file[i]);
@@ -39,10 +53,10 @@ void console_close(struct console *console)
 /* ---- streams ----------------------------------------------------------- */
 
 /* Where a stream's text goes; returns how many files that are. */
-static int targets(const struct console *c, enum options_stream stream,
-                   FILE *to[3])
+static int targets(struct console *c, enum options_stream stream, FILE *to[3])
 {
     int count = 0;
+    progress_clear(&c->progress);
     if (stream == OPTIONS_FATAL || c->options->console[stream])
         to[count++] = c->to;
     if (c->file[stream])
@@ -52,16 +66,12 @@ static int targets(const struct console *c, enum options_stream stream,
     return count;
 }
 
+/* #warning and #error come as diagnostics too, with their place. */
 void console_message(struct console *console, enum parse_stream stream,
                      const char *text)
 {
-    static const enum options_stream streams[] = {
-        [PARSE_DEBUG] = OPTIONS_DEBUG,
-        [PARSE_WARNING] = OPTIONS_WARNING,
-        [PARSE_ERROR] = OPTIONS_FATAL,
-    };
     FILE *to[3];
-    int count = targets(console, streams[stream], to);
+    int count = stream == PARSE_DEBUG ? targets(console, OPTIONS_DEBUG, to) : 0;
     for (int i = 0; i < count; i++)
         fputs(text, to[i]);
 }
@@ -117,7 +127,7 @@ void console_diag(struct console *console, const struct diag *diag)
     int count = more > 0 ? targets(console, OPTIONS_WARNING, to) : 0;
     for (int i = 0; i < count; i++)
         fprintf(to[i], "%d more warnings\n", more);
-    if (diag->errors > 0 && !diag->first)
+    if (diag->errors > 0 && !diag->first)   /* memory ran out */
         fputs("error: out of memory\n", console->to);
 }
 
@@ -127,15 +137,20 @@ void console_frame(struct console *console, const struct frames *frames,
                    int number)
 {
     if (frames->animation)
-        snprintf(console->label, sizeof console->label, "frame %d of %d",
-                 number, frames->last);
+        snprintf(console->frame, sizeof console->frame, "%d/%d ", number,
+                 frames->last);
 }
 
 void console_progress(struct console *console,
                       const struct brume_progress *progress)
 {
-    (void)console;
-    (void)progress;
+    char stage[64];
+    snprintf(stage, sizeof stage, "%s%s", console->frame, progress->stage);
+    struct progress_report report = {
+        .stage = stage, .fraction = progress->fraction,
+        .items = progress->rate * progress->seconds, .unit = progress->item,
+    };
+    progress_update(&console->progress, &report);
 }
 
 /* Told on a terminal, or when +V asks for it. */

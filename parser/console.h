@@ -4,6 +4,7 @@
 #ifndef PARSER_CONSOLE_H
 #define PARSER_CONSOLE_H
 #include <stdio.h>
+#include "lib/progress.h"
 #include "parser/diag.h"
 #include "parser/options.h"
 #include "parser/reel.h"
@@ -15,8 +16,8 @@ struct console {
     FILE *file[OPTIONS_STREAMS];    /* copies of the streams; or NULL      */
     uint64_t *seen;                 /* warnings told already               */
     size_t seens, room;
-    struct progress *progress;      /* NULL: none is shown                 */
-    char label[64];                 /* of the frame, for progress          */
+    struct progress progress;
+    char frame[32];                 /* "3/24 ", or "" for a still          */
 };
 
 /* False with err set (BRUME_ERR_FILE) when a stream's file can't be made. */

@@ -42,6 +42,13 @@ static const struct option_word explain_words[] = {
     { NULL, 0, false },
 };
 
+static const struct option_word progress_words[] = {
+    { "auto", OPTIONS_PROGRESS_AUTO, false },
+    { "off", OPTIONS_PROGRESS_OFF, false },
+    { "json", OPTIONS_PROGRESS_JSON, false },
+    { NULL, 0, false },
+};
+
 static const struct option_word help_words[] = {
     { "", OPTIONS_HELP, false },
     { NULL, 0, false },
@@ -188,6 +195,9 @@ const struct option option_table[] = {
       .help = "print the plan, render nothing" },
     { .name = "stats", .value = "file", .set = set_text, .at = AT(stats),
       .help = "write statistics as JSON" },
+    { .name = "progress", .value = "name", .set = set_word,
+      .at = AT(progress), .words = progress_words,
+      .help = "auto, off, or json on standard error" },
     { .plus = "V", .ini = "Verbose", .set = set_flag, .at = AT(verbose),
       .help = "tell of each frame; -V: no progress" },
     { .plus = "GD", .value = "[file]", .set = set_stream, .at = OPTIONS_DEBUG,

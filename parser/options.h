@@ -24,6 +24,11 @@ enum options_format {
     OPTIONS_FORMAT_PNG, OPTIONS_FORMAT_EXR, OPTIONS_FORMAT_PPM
 };
 
+enum options_progress {
+    OPTIONS_PROGRESS_AUTO,      /* a line, on a terminal                   */
+    OPTIONS_PROGRESS_OFF, OPTIONS_PROGRESS_JSON
+};
+
 /* POV-Ray's text streams; the last is a file for all of them. */
 enum options_stream {
     OPTIONS_DEBUG, OPTIONS_FATAL, OPTIONS_RENDERING, OPTIONS_STATISTICS,
@@ -78,6 +83,7 @@ struct options {
     const char *stats;              /* file of --stats, or NULL            */
 
     bool has_verbose, verbose;      /* +V                                  */
+    enum options_progress progress;
     bool console[OPTIONS_STREAMS];
     const char *stream_file[OPTIONS_STREAMS];
     bool append;                    /* to the files of the streams         */
