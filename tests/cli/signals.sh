@@ -1,0 +1,56 @@
+#!/bin/sh
+# Signals end a run with 75 and leave whole pictures only.
+. "$(dirname "$0")/lib"
+write_scene s.pov
+
+# wait_for TEXT FILE: until the file has it, at most 10 s.
+wait_for()
+{
+    for _ in $(seq 100); do
+        grep -qF -e "$1" "$2" 2>/dev/null && return
+        sleep 0.1
+    done
+    complain "never said: $1"
+}
+
+new_case 'SIGINT in the middle of a picture'
+"$BRUME" s.pov +W800 +H600 --spp 60000 +Olong.png >printed 2>said &
+pid=$!
+wait_for 'frame 0' said
+sleep 0.3
+# A shell lets its background processes ignore SIGINT; SIGTERM gets through.
+kill -TERM $pid
+wait $pid
+took $?
+exits 75
+says 'stopped'
+lacks long.png
+
+new_case 'SIGTERM in the middle of a film'
+"$BRUME" s.pov +W160 +H120 --spp 8 +KFF1000 +Ofilm.png --stats stats.json \
+    >printed 2>said &
+pid=$!
+wait_for 'frame 3' said
+kill -TERM $pid
+wait $pid
+took $?
+exits 75
+has film0001.png film0002.png
+count=$(ls film*.png | wc -l)
+[ "$count" -lt 1000 ] || complain 'it went on to the end'
+grep -q '"exit_code": 75' stats.json || complain 'stats tell of no signal'
+is "$(grep -c '"picture"' stats.json)" "$count"
+
+new_case 'SIGTERM while it waits for standard input'
+mkfifo pipe
+"$BRUME" - <pipe >printed 2>said &
+pid=$!
+exec 9>pipe
+sleep 0.5
+kill -TERM $pid
+wait $pid
+took $?
+exec 9>&-
+exits 75
+
+end_cases
