@@ -14,47 +14,98 @@ static bool may_declare(struct expander *expander, const struct name *name,
                         "be declared", name->text);
 }
 
-static bool begin_value(struct expander *expander, struct name *name,
-                        struct value *item, bool local, struct location at)
+/* The '=' and the value of what is declared; NULL: an error. */
+static struct pending *begin_value(struct expander *expander,
+                                   struct location at)
 {
-    if (!expand_need(expander, '=')) {
+    return expand_need(expander, '=')
+        ? expand_begin(expander, TOK_MODE_VALUE, USE_DECLARE, at) : NULL;
+}
+
+/* Takes a reserved word that has no token of its own. */
+static bool take_word(struct expander *expander, const char *word)
+{
+    const struct token *token = expand_peek(expander);
+    return token->kind == TOK_UNSUPPORTED
+        && strcmp(token->name->text, word) == 0
+        && expand_take(expander, TOK_UNSUPPORTED);
+}
+
+/* `deprecated once "text"`, of which all may be left out but the first. */
+static bool read_deprecation(struct expander *expander,
+                             struct deprecation **deprecated)
+{
+    *deprecated = NULL;
+    if (!take_word(expander, "deprecated")) {
+        return true;
+    }
+    *deprecated = parser_alloc(expander->parser, sizeof **deprecated);
+    if (!*deprecated) {
         return false;
     }
-    struct pending *pending = expand_begin(expander, TOK_MODE_VALUE,
-                                           USE_DECLARE, at);
-    if (!pending) {
-        return false;
+    (*deprecated)->once = take_word(expander, "once");
+    const struct token *token = expand_peek(expander);
+    if (expand_take(expander, TOK_STRING)) {
+        (*deprecated)->text = *token->string;
     }
-    pending->target.name = name;
-    pending->target.item = item;
-    pending->target.local = local;
     return true;
+}
+
+void directive_used(struct expander *expander, const struct token *token)
+{
+    const struct symbol *symbol = token->name->symbol;
+    struct deprecation *deprecated = symbol ? symbol->deprecated : NULL;
+    if (!deprecated || (deprecated->once && deprecated->told)) {
+        return;
+    }
+    deprecated->told = true;
+    if (deprecated->text.length > 0) {
+        parser_warn(expander->parser, token_location(token), "%s",
+                    deprecated->text.text);
+    } else {
+        parser_warn(expander->parser, token_location(token),
+                    "'%.40s' was declared deprecated", token->name->text);
+    }
 }
 
 static bool declare(struct expander *expander, const struct token *token)
 {
+    struct deprecation *deprecated;
+    if (!read_deprecation(expander, &deprecated)) {
+        return false;
+    }
     struct location at = token_location(expand_peek(expander));
     struct name *name = expand_need_name(expander);
     if (!name || !may_declare(expander, name, at)) {
         return false;
     }
-    if (expand_peek(expander)->kind != '[') {
-        return begin_value(expander, name, NULL,
-                           token->kind == TOK_HASH_LOCAL, at);
+    if (expand_peek(expander)->kind == '[') {
+        struct value *array = symbols_find(name);
+        struct seek seek = {.item = array, .use = ITEM_DECLARE};
+        return array && array->kind == VALUE_ARRAY
+            ? item_seek(expander, &seek, at)
+            : parser_error(expander->parser, at, "'%.40s' is not an array",
+                           name->text);
     }
-    struct value *array = symbols_find(name);
-    if (!array || array->kind != VALUE_ARRAY) {
-        return parser_error(expander->parser, at, "'%.40s' is not an array",
-                            name->text);
+    struct pending *pending = begin_value(expander, at);
+    if (!pending) {
+        return false;
     }
-    struct seek seek = {.item = array, .use = ITEM_DECLARE};
-    return item_seek(expander, &seek, at);
+    pending->target.name = name;
+    pending->target.local = token->kind == TOK_HASH_LOCAL;
+    pending->target.deprecated = deprecated;
+    return true;
 }
 
 bool directive_declare_item(struct expander *expander, struct value *item,
                             struct location at)
 {
-    return begin_value(expander, NULL, item, false, at);
+    struct pending *pending = begin_value(expander, at);
+    if (!pending) {
+        return false;
+    }
+    pending->target.item = item;
+    return true;
 }
 
 /* As POV-Ray does from 3.5 on. */
@@ -91,6 +142,7 @@ static bool finish_declare(struct expander *expander,
         if (!symbol) {
             return report_no_memory(expander->parser);
         }
+        symbol->deprecated = pending->target.deprecated;
         item = symbol_value(symbol);
     }
     *item = expander->result;

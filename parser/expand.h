@@ -78,6 +78,7 @@ struct pending {
             struct name *name;          /* USE_DECLARE                     */
             struct value *item;         /* of an array; NULL: the name     */
             bool local;
+            struct deprecation *deprecated;
         } target;
         struct seek seek;               /* USE_INDEX                       */
         struct {
@@ -165,6 +166,8 @@ bool expand_return(struct expander *expander, size_t frames,
 bool directive_run(struct expander *expander, const struct token *token);
 bool directive_finish(struct expander *expander,
                       const struct pending *pending);
+/* Warns if a name that is used was declared deprecated. */
+void directive_used(struct expander *expander, const struct token *token);
 /* Whether #declare needs its ';'. */
 bool directive_strict(const struct expander *expander);
 bool directive_declare_item(struct expander *expander, struct value *item,

@@ -283,6 +283,7 @@ static bool run_name(struct expander *expander, const struct token *token)
         return false;
     }
     expand_frame(expander)->next++;
+    directive_used(expander, token);
     if (!value) {
         return push_word(expander, token->name->keyword->kind, token);
     }

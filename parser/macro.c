@@ -226,6 +226,7 @@ static enum found find_reference(struct expander *expander)
         return FOUND_OTHER;
     }
     expand_frame(expander)->next++;
+    directive_used(expander, token);
     return add_actual(expander, value, value) ? FOUND_REFERENCE
         : FOUND_ERROR;
 }

@@ -20,6 +20,13 @@ struct name {
     char text[];
 };
 
+/* What `#declare deprecated` says of a name. */
+struct deprecation {
+    struct string text;             /* empty: the usual warning            */
+    bool once;                      /* warn of the first use alone         */
+    bool told;
+};
+
 struct symbol {
     struct name *name;
     struct symbol *outer;           /* the declaration that this one hides */
@@ -27,6 +34,7 @@ struct symbol {
     uint32_t level;                 /* of its scope; 0 is global           */
     bool constant;                  /* predeclared: cannot be declared     */
     bool removed;                   /* by #undef                           */
+    struct deprecation *deprecated; /* or NULL                             */
     struct value *refers;           /* of a macro's parameter that was given
                                        an identifier: its value; or NULL   */
     struct value value;
