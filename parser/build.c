@@ -101,8 +101,28 @@ void build_suspend(struct parser *parser)
 
 void build_resume(struct parser *parser)
 {
-    if (build_top(parser))
-        parser->builder->frames--;
+    if (!build_top(parser))
+        return;
+    parser->builder->frames--;
+    parser->builder->fresh = NULL;
+}
+
+void *build_node(struct parser *parser, enum value_kind kind, size_t size)
+{
+    struct spare *node = parser->builder->spare[kind];
+
+    if (!node)
+        return parser_alloc(parser, size);
+    parser->builder->spare[kind] = node->next;
+    return memset(node, 0, size);
+}
+
+void build_give_up(struct parser *parser, enum value_kind kind, void *node)
+{
+    struct spare *spare = node;
+
+    spare->next = parser->builder->spare[kind];
+    parser->builder->spare[kind] = spare;
 }
 
 /* BUILD_KINDS for a word that begins nothing. */
@@ -126,7 +146,7 @@ void build_open(struct parser *parser, const char *word, struct location at)
     if (!frame)
         return;
     if (statement->size) {
-        frame->node = parser_alloc(parser, statement->size);
+        frame->node = build_node(parser, statement->makes, statement->size);
         if (!frame->node)
             return;
     }
@@ -151,6 +171,7 @@ struct value build_close(struct parser *parser, struct location at)
         statement->close(parser, frame, at);
     void *node = frame->node;
     parser->builder->frames--;
+    parser->builder->fresh = node;
     if (parser->failed || !node)
         return (struct value){.kind = VALUE_NONE};
     return value_node(statement->makes, node);
@@ -353,6 +374,13 @@ void build_matrix(struct parser *parser, const struct value *number,
     move(parser, frame, &by, "matrix", at);
 }
 
+/* Values that a statement around copies; it refers to others. */
+static bool is_copied(enum value_kind kind)
+{
+    return kind == VALUE_PIGMENT || kind == VALUE_FINISH ||
+           kind == VALUE_DENSITY || kind == VALUE_TRANSFORM;
+}
+
 void build_apply(struct parser *parser, const struct value *value,
                  struct location at)
 {
@@ -368,6 +396,9 @@ void build_apply(struct parser *parser, const struct value *value,
     } else {
         build_misplaced(parser, frame, value, at);
     }
+    if (value->node == parser->builder->fresh && is_copied(value->kind))
+        build_give_up(parser, value->kind, value->node);
+    parser->builder->fresh = NULL;
 }
 
 /* `inverse` counts once, however often it stands, and for the whole block. */

@@ -48,7 +48,7 @@ static void open_triangle(struct parser *parser, struct frame *frame)
     parser->builder->uvs = 0;
     if (around && around->kind == BUILD_MESH)
         return;
-    frame->node = parser_alloc(parser, sizeof(struct object));
+    frame->node = build_node(parser, VALUE_OBJECT, sizeof(struct object));
     if (frame->node)
         open_any_mesh(parser, frame, "triangle");
 }

@@ -77,9 +77,11 @@ void build_object_apply(struct parser *parser, struct frame *frame,
         material = value->node;
         if (material->interior.what)
             object->interior = material->interior;
-        if (material->texture.what)
-            build_wear_placed(parser, &object->texture, &material->texture,
-                              at);
+        if (material->texture.what) {
+            struct placed_texture over = material->texture;
+            over.owned = false;
+            build_wear_placed(parser, &object->texture, &over, at);
+        }
         break;
     default:
         build_misplaced(parser, frame, value, at);
@@ -280,6 +282,7 @@ static void apply_object(struct parser *parser, struct frame *frame,
         parser_error(parser, at, "'object' takes one object; use 'union'");
     frame->given |= OBJECT_NAMED;
     *object = *(const struct object *)value->node;
+    object->texture.owned = false;
     object->at = frame->at;
 }
 

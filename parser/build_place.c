@@ -219,7 +219,7 @@ static bool place_shape(struct parser *parser, const struct object *object,
 {
     struct brume_shape shape = object->shape;
     const struct placed_texture bare = {&parser->builder->default_texture,
-                                        transform_identity()};
+                                        transform_identity(), false};
 
     if (vanishes(&shape)) {
         parser_warn(parser, object->at, "this %s has radius 0 and is left out",
@@ -341,6 +341,19 @@ bool build_place_atmosphere(struct parser *parser)
     return parser_relay(parser, builder->atmosphere_at, &err);
 }
 
+/* An object that was made for its place alone. */
+static void give_up_object(struct parser *parser, const struct value *value)
+{
+    struct object *object = value->node;
+
+    if (value->node != parser->builder->fresh)
+        return;
+    if (object->texture.owned)
+        build_give_up(parser, VALUE_TEXTURE, object->texture.what);
+    build_give_up(parser, value->kind, object);
+    parser->builder->fresh = NULL;
+}
+
 void build_place(struct parser *parser, const struct value *value,
                  struct location at)
 {
@@ -350,6 +363,7 @@ void build_place(struct parser *parser, const struct value *value,
     case VALUE_OBJECT:
     case VALUE_LIGHT:
         place_object(parser, value->node);
+        give_up_object(parser, value);
         break;
     case VALUE_CAMERA:
         parser->builder->camera = value->node;

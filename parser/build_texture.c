@@ -229,31 +229,39 @@ bool build_wear_placed(struct parser *parser, struct placed_texture *worn,
     if (worn->what && !model_is_opaque(over->what))
         return parser_error(parser, at,
                             "layered textures are not supported yet");
+    if (worn->owned)
+        build_give_up(parser, VALUE_TEXTURE, worn->what);
     *worn = *over;
+    return true;
+}
+
+/* Makes what is worn a texture of its own, with its maps in the pigment. */
+static bool own_texture(struct parser *parser, struct placed_texture *worn)
+{
+    struct texture *texture = worn->what;
+
+    if (!worn->owned) {
+        texture = build_node(parser, VALUE_TEXTURE, sizeof *texture);
+        if (!texture)
+            return false;
+        *texture = worn->what ? *worn->what : parser->builder->default_texture;
+    }
+    if (worn->what)
+        texture->pigment.by = transform_then(&texture->pigment.by, &worn->by);
+    *worn = (struct placed_texture){texture, transform_identity(), true};
     return true;
 }
 
 bool build_wear(struct parser *parser, struct placed_texture *worn,
                 const struct value *value, struct location at)
 {
-    struct texture *texture;
-
     if (value->kind == VALUE_TEXTURE) {
-        struct placed_texture over = {value->node, transform_identity()};
+        struct placed_texture over = {
+            value->node, transform_identity(),
+            value->node == parser->builder->fresh};
         return build_wear_placed(parser, worn, &over, at);
     }
-    texture = parser_alloc(parser, sizeof *texture);
-    if (!texture)
-        return false;
-    *texture = parser->builder->default_texture;
-    if (worn->what) {
-        *texture = *worn->what;
-        texture->pigment.by = transform_then(&texture->pigment.by, &worn->by);
-    }
-    set_part(texture, value);
-    worn->what = texture;
-    worn->by = transform_identity();
-    return true;
+    return own_texture(parser, worn) && set_part(worn->what, value);
 }
 
 /* ---- material ---------------------------------------------------------- */

@@ -108,9 +108,17 @@ struct index_list {
 
 enum { BUILD_NOTES = 16 };
 
+/* A node that nothing refers to any more. */
+struct spare {
+    struct spare *next;
+};
+
 struct builder {
     struct frame *frame;            /* open statements, innermost last     */
     size_t frames, frame_room;
+    struct spare *spare[VALUE_KINDS];
+    const void *fresh;              /* the value made last, while only the
+                                       grammar has it                      */
     struct texture default_texture;
     struct globals globals;
     const struct camera *camera;    /* the last one placed                 */
@@ -135,6 +143,11 @@ struct builder {
 struct frame *build_top(struct parser *parser);
 /* The frame around the innermost one, or NULL. */
 struct frame *build_around(struct parser *parser);
+
+/* A zeroed node for a value of the kind: a loop that makes a million objects
+ * needs the memory of one. A node that is given up must be fresh. */
+void *build_node(struct parser *parser, enum value_kind kind, size_t size);
+void build_give_up(struct parser *parser, enum value_kind kind, void *node);
 
 /* Reports that a value of that kind has no place in the open statement. */
 void build_misplaced(struct parser *parser, const struct frame *frame,

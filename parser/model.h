@@ -101,8 +101,9 @@ struct interior {
 /* ---- objects ----------------------------------------------------------- */
 
 struct placed_texture {
-    const struct texture *what;     /* NULL: none                          */
+    struct texture *what;           /* NULL: none                          */
     transform by;
+    bool owned;                     /* nothing else refers to it           */
 };
 
 struct placed_interior {

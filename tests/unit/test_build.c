@@ -404,6 +404,46 @@ static void declarations_inside_of_statements(void **state)
     assert_int_equal(s->shapes, 3);
 }
 
+/* Nodes of statements are used again; those with a name must not be. */
+static void identifiers_keep_their_values(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "#declare P = pigment { rgb x }\n"
+        "#declare F = finish { ambient .5 }\n"
+        "#declare T = texture { pigment { P } finish { F } }\n"
+        "#declare M = transform { scale 3 }\n"
+        "#declare S = sphere { 0, 1 pigment { rgb z } }\n"
+        "#declare A = array[2] {pigment { rgb <0, 1, 1> }, texture { T }}\n"
+        "#for (I, 1, 3)\n"
+        "  sphere { 0, I pigment { rgb y } finish { ambient .1*I }\n"
+        "    transform { scale I } }\n"
+        "#end\n"
+        "sphere { 0, 1 pigment { P } finish { F } transform M }\n"
+        "sphere { 0, 1 texture { T } }\n"
+        "object { S }\n"
+        "sphere { 0, 1 pigment { A[0] } }\n"
+        "sphere { 0, 1 texture { A[1] } finish { diffuse 0 } }\n"
+        "object { S texture { T } }\n"
+        "object { S }\n"
+        "#declare Q = pigment { rgb z }\n"
+        "sphere { 0, 1 texture { Q } }\n"
+        "sphere { 0, 1 pigment { rgb y } }\n"
+        "sphere { 0, 1 texture { Q } }\n");
+    NUMBERS(s->material[s->shape[2].material].ambient, 0.3, 0.3, 0.3);
+    NUMBERS(s->material[s->shape[3].material].color[0], 1, 0, 0, 0, 0);
+    NUMBERS(s->material[s->shape[3].material].ambient, 0.5, 0.5, 0.5);
+    NUMBERS(s->shape[3].transform[0], 3, 0, 0, 0);
+    assert_int_equal(s->shape[4].material, s->shape[3].material);
+    NUMBERS(s->material[s->shape[5].material].color[0], 0, 0, 1, 0, 0);
+    NUMBERS(s->material[s->shape[6].material].color[0], 0, 1, 1, 0, 0);
+    NUMBERS(s->material[s->shape[7].material].color[0], 1, 0, 0, 0, 0);
+    assert_int_equal(s->shape[8].material, s->shape[3].material);
+    assert_int_equal(s->shape[9].material, s->shape[5].material);
+    assert_int_equal(s->shape[10].material, s->shape[5].material);
+    assert_int_equal(s->shape[12].material, s->shape[5].material);
+}
+
 /* ---- global settings --------------------------------------------------- */
 
 static void globals(void **state)
@@ -486,6 +526,7 @@ int main(void)
         cmocka_unit_test(textures),
         cmocka_unit_test(defaults),
         cmocka_unit_test(declarations_inside_of_statements),
+        cmocka_unit_test(identifiers_keep_their_values),
         cmocka_unit_test(globals),
         cmocka_unit_test(transports),
         cmocka_unit_test(extension_words_can_be_names),
