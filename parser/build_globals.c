@@ -11,6 +11,9 @@ static const char *const unit_words[] = {"pov", "physical", NULL};
 static const char *const integrator_words[] = {"path", "photon",
                                                "progressive", NULL};
 
+static const char pattern_note[] = "there are no patterns that it is for yet";
+static const char finish_note[] = "there are no finishes that it is for yet";
+
 #define GLOBAL(word, kind, start, low, high, open, given)                     \
     PARAM_ROW(#word, kind, start, low, high, open, given, struct globals, word)
 
@@ -22,6 +25,11 @@ const struct param build_globals_params[] = {
     GLOBAL(adc_bailout, PARAM_FLOAT, 1.0 / 255, 0, INFINITY, 0, 0),
     GLOBAL(accuracy, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
     GLOBAL(time_limit, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
+    PARAM_WITHOUT("max_intersections", "Brume has no such bound"),
+    PARAM_WITHOUT("number_of_waves", pattern_note),
+    PARAM_WITHOUT("noise_generator", pattern_note),
+    PARAM_WITHOUT("irid_wavelength", finish_note),
+    PARAM_WITHOUT("mm_per_unit", finish_note),
     PARAM_WORDS("integrator", integrator_words, GLOBAL_INTEGRATOR,
                 struct globals, integrator),
     PARAM_WORDS("light_units", unit_words, 0, struct globals, light_units),

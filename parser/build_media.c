@@ -80,7 +80,11 @@ void build_density_file(struct parser *parser, const struct build_file *file)
 
     if (!frame)
         return;
-    load_density(parser, file, role_of(frame->kind), frame->node);
+    if (frame->kind == BUILD_PIGMENT)
+        parser_error(parser, frame->at, "'density_file' in a pigment is not "
+                     "supported yet");
+    else
+        load_density(parser, file, role_of(frame->kind), frame->node);
 }
 
 const struct statement build_statement_density = {

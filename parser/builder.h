@@ -80,7 +80,9 @@ enum { PIGMENT_PATTERN = 1, OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
     PARAM_WORD("hollow", PARAM_SWITCH, 1, OBJECT_HOLLOW, struct object,       \
                hollow),                                                       \
     PARAM_WORD("no_shadow", PARAM_CLEAR, 0, 0, struct object, shadow),        \
-    PARAM_WITHOUT("inverse", NULL)
+    PARAM_WITHOUT("inverse", NULL),                                           \
+    PARAM_WITHOUT("sturm", "Brume solves in one way"),                        \
+    PARAM_WITHOUT("split_union", "it is for photons, which are to come")
 
 extern const struct param build_camera_params[], build_light_params[],
     build_object_params[], build_mesh_params[], build_finish_params[],

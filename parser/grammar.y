@@ -107,7 +107,8 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 /* Statements and their words. Words that are used alike share a token. */
 %token <name> CAMERA "'camera'" LIGHT_SOURCE "'light_source'"
 %token <name> BACKGROUND "'background'" GLOBAL_SETTINGS "'global_settings'"
-%token <name> SHAPE "shape" MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
+%token <name> SHAPE "shape" CYLINDER "'cylinder'"
+%token <name> MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
 %token <name> OBJECT "'object'" MESH_LIST "list of a mesh2"
 %token <name> TEXTURE "'texture'" PIGMENT "'pigment'" FINISH "'finish'"
 %token <name> MATERIAL "'material'" INTERIOR "'interior'" MEDIA "'media'"
@@ -155,7 +156,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %nterm <value> surface texture texture_item pigment finish material
 %nterm <value> material_item interior media density transform
 %nterm <name> camera_word light_word object_word list_word finish_word
-%nterm <name> media_word choice
+%nterm <name> media_word shape_word choice
 %nterm <file> density_file
 
 %%
@@ -455,6 +456,7 @@ camera_items:
   | camera_items transformation
   | camera_items CAMERA_ID          { build_apply(parser, &$2, @2); }
   | camera_items CAMERA_TYPE        { build_word(parser, $2, @2); }
+  | camera_items CYLINDER           { build_later(parser, $2, @2); }
   | camera_items camera_word expr %prec LOW
         { build_set(parser, $2, @2, &$3, 1, @3); }
   ;
@@ -477,6 +479,7 @@ light_items:
     %empty
   | light_items transformation
   | light_items LIGHT_TYPE          { build_word(parser, $2, @2); }
+  | light_items CYLINDER            { build_later(parser, $2, @2); }
   | light_items light_word expr %prec LOW
         { build_set(parser, $2, @2, &$3, 1, @3); }
   | light_items LIGHT_SWITCH        { build_word(parser, $2, @2); }
@@ -499,7 +502,12 @@ object:
   ;
 
 shape:
-    SHAPE open numbers modifiers '}' { $$ = build_close(parser, @5); }
+    shape_word open numbers modifiers '}'
+        { $$ = build_close(parser, @5); }
+  ;
+
+shape_word:
+    SHAPE | CYLINDER
   ;
 
 modifiers:
@@ -598,6 +606,8 @@ pigment_items:
     %empty
   | pigment_items transformation
   | pigment_items colors
+  | pigment_items density_file %prec LOW
+        { build_density_file(parser, &$2); }
   | pigment_items PIGMENT_ID        { build_apply(parser, &$2, @2); }
   | pigment_items CHECKER           { build_word(parser, $2, @2); }
   | pigment_items QUICK_COLOR expr %prec LOW

@@ -308,8 +308,8 @@ static bool begins_another(int kind)
 {
     static const int kinds[] = {
         TOK_END, TOK_CAMERA, TOK_LIGHT_SOURCE, TOK_BACKGROUND,
-        TOK_GLOBAL_SETTINGS, TOK_SHAPE, TOK_MESH, TOK_MESH2, TOK_UNION,
-        TOK_OBJECT
+        TOK_GLOBAL_SETTINGS, TOK_SHAPE, TOK_CYLINDER, TOK_MESH, TOK_MESH2,
+        TOK_UNION, TOK_OBJECT
     };
     return contains(kinds, sizeof kinds / sizeof *kinds, kind);
 }
