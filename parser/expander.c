@@ -359,6 +359,22 @@ static bool goes_on(const struct pending *pending)
     return accepts(pending, '+');
 }
 
+/* Whether a directive belongs to a block that was open before the value
+ * began. */
+static bool leaves_value(const struct expander *expander,
+                         const struct pending *pending,
+                         const struct token *token)
+{
+    switch (token->kind) {
+    case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
+    case TOK_HASH_CASE: case TOK_HASH_RANGE: case TOK_HASH_BREAK:
+        return expander->frames == pending->frames
+            && token->block.pair < pending->start;
+    default:
+        return false;
+    }
+}
+
 /* A directive ends a value that is complete, unless it belongs to it: a block
  * that a number holds, as in `3 #if (A) + 1 #end`. Where the ';' may be left
  * out, a block cannot belong to a complete number. */
@@ -366,14 +382,13 @@ static bool directive_ends(const struct expander *expander,
                            const struct pending *pending,
                            const struct token *token)
 {
-    if (block_opens(token->kind) && token->kind != TOK_HASH_MACRO) {
-        return !directive_strict(expander) || !goes_on(pending);
-    }
     switch (token->kind) {
+    case TOK_HASH_IF: case TOK_HASH_IFDEF: case TOK_HASH_IFNDEF:
+    case TOK_HASH_SWITCH: case TOK_HASH_WHILE: case TOK_HASH_FOR:
+        return !directive_strict(expander) || !goes_on(pending);
     case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
     case TOK_HASH_CASE: case TOK_HASH_RANGE: case TOK_HASH_BREAK:
-        return expander->frames == pending->frames
-            && token->block.pair < pending->start;
+        return leaves_value(expander, pending, token);
     default:
         return true;
     }
@@ -422,13 +437,26 @@ static bool run_held(struct expander *expander)
     return push_value(expander, &value, expander->hold_at);
 }
 
+/* The end of a text is the end of the values that began in it. */
 static bool run_end(struct expander *expander)
 {
-    if (expander->frames == 1) {
+    if (expander->frames == innermost(expander)->frames) {
         return push_end(expander);
     }
     leave_text(expander);
     return true;
+}
+
+/* A value that began within a block must end there. */
+static bool run_directive(struct expander *expander,
+                          const struct token *token)
+{
+    const struct pending *pending = innermost(expander);
+    return leaves_value(expander, pending, token)
+        ? parser_error(expander->parser, token_location(token),
+                       "%s comes in the middle of a value",
+                       grammar_token_name(token->kind))
+        : directive_run(expander, token);
 }
 
 static bool run_token(struct expander *expander)
@@ -458,7 +486,7 @@ static bool run_token(struct expander *expander)
                             token_location(token));
     default:
         return is_directive(token->kind)
-            ? directive_run(expander, token)
+            ? run_directive(expander, token)
             : push_word(expander, token->kind, token);
     }
     SCENE_YYSTYPE meaning = {.value = value};
