@@ -225,7 +225,7 @@ HD float path_middle(const flat_scene *s, const path_state *p,
  * any factor that only the ray decides. */
 HD float path_boost(const flat_scene *s, const path_state *p, float t1)
 {
-    const float enough = 0.7f, most = 4.0f;
+    const float enough = 1.5f, most = 8.0f;
     media_walk w;
     float tau = 0.0f;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);

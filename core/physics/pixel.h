@@ -30,7 +30,7 @@ typedef struct {
 
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
  * of the first samples, then by every eighth. */
-enum { PIXEL_LINES_FIRST = 8, PIXEL_LINES_EVERY = 8 };
+enum { PIXEL_LINES_FIRST = 4, PIXEL_LINES_EVERY = 8 };
 
 HD bool pixel_has_line(uint32_t i)
 {
@@ -48,7 +48,7 @@ HD uint32_t pixel_lines(uint32_t n, int half)
 {
     if (n <= PIXEL_LINES_FIRST)
         return (n + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t all = (n - 1u) / PIXEL_LINES_EVERY;    /* from 8, 16, ... */
+    uint32_t all = (n - 1u) / PIXEL_LINES_EVERY;    /* 8, 16, ... */
     return PIXEL_LINES_FIRST / 2u + (all + (half == 1 ? 1u : 0u)) / 2u;
 }
 

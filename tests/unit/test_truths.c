@@ -246,7 +246,7 @@ static void truths__furnace_thick_forward(void **state)
 static void truths__furnace_with_surface(void **state)
 {
     (void)state;
-    furnace(20.0, -0.5, true, 100);
+    furnace(20.0, -0.5, true, 220);
 }
 
 /* Isothermal: a medium that emits B sigma_a inside walls of radiance B. */
