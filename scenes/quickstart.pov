@@ -16,21 +16,20 @@ global_settings {
     // Fire and moon light the smoke and the ground, and what these scatter
     // lights on; the night sky lights a little too.
     transport { media multiple surfaces indirect environment on }
-    accuracy 0.08       // stop at this relative error of the picture
+    accuracy 0.09       // stop at this relative error of the picture
 }
 
 camera {
-    location <1.15, 0.95, -3.3>
+    location <0.95, 0.85, -3.1>
     right x * image_width / image_height
     angle 42
-    look_at <-0.22, 0.68, 0>
+    look_at <-0.26, 0.70, 0>
 }
 
-background { rgb <0.004, 0.006, 0.012> }
+background { rgb <0.007, 0.011, 0.022> }
 
-// The moon, far away: parallel light, but for POV-Ray's units no dimmer.
-light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.04 }
-
+// The moon: far away, and no dimmer for it, since nothing says fade_distance.
+light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.07 }
 
 // ---- the ground
 
@@ -65,7 +64,26 @@ plane {
           0.008 + 0.022 * pow(rand(Chance), 3))
 #end
 
-// ---- the wood
+// ---- pines behind the clearing, and firewood
+
+#macro Pine(Place, Height)
+    union {
+        cone { 0.10 * y, 0.28, 0.55 * y, 0.06 }
+        cone { 0.35 * y, 0.22, 0.80 * y, 0.04 }
+        cone { 0.60 * y, 0.15, 1.00 * y, 0.00 }
+        cylinder { 0, 0.2 * y, 0.04 }
+        scale Height
+        translate Place
+        pigment { color rgb <0.05, 0.08, 0.05> }
+        finish { diffuse 0.8 ambient 0 }
+    }
+#end
+
+#for (I, 0, 24)
+    #local Angle = 4 * I - 52 + 3 * rand(Chance);
+    #local Place = vrotate((8 + 9 * rand(Chance)) * z, Angle * y);
+    Pine(Place, 1.6 + 1.8 * rand(Chance))
+#end
 
 #declare Bark = texture {
     pigment { color rgb <0.16, 0.09, 0.05> }
@@ -88,7 +106,7 @@ mesh {
     translate 0.737 * y         // on her feet
     scale 0.62
     rotate -128 * y             // her face to the fire
-    translate <-1.35, 0, 0.35>
+    translate <-1.22, 0, 0.25>
     pigment { color rgb <0.80, 0.76, 0.70> }
     finish { diffuse 0.85 ambient 0 specular 0.2 roughness 0.03 }
 }
@@ -108,15 +126,15 @@ box {
     interior {
         media {
             density { density_file vdb File "density" up z }
-            scattering { 5, rgb 9 eccentricity 0.3 }
-            absorption rgb 3
+            scattering { 5, rgb 4 eccentricity 0.3 }
+            absorption rgb 1.5
             fire {
                 temperature { density_file vdb File "temperature" up z }
                 amount { density_file vdb File "flame" up z }
                 kelvin 1000, 0          // the grid's 1 is 1000 K
-                intensity 4
-                brightness physical     // as a black body shines
-                reference 2000
+                brightness total        // as T^4, milder than to the eye
+                reference 2000          // kelvin at which it is `intensity`
+                intensity 6
                 coupling additive       // flames shine without smoke too
             }
         }

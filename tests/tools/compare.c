@@ -29,8 +29,8 @@ static struct exr_picture *load(const char *path)
     struct brume_error err = {0};
     struct exr_picture *p = exr_load(path, &err);
     if (!p || !exr_plane(p, "R") || !exr_plane(p, "G") || !exr_plane(p, "B")) {
-        fprintf(stderr, "compare: %s: %s\n", path,
-                p ? "has no R, G and B" : err.text);
+        fprintf(stderr, "compare: %s%s\n", p ? path : err.text,
+                p ? " has no R, G and B" : "");
         exit(BRUME_ERR_FILE);
     }
     return p;
