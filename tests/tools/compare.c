@@ -20,6 +20,9 @@
  * the change that makes other random choices. */
 #define BIAS_CHANCE 1e-4
 
+/* Deviation of a tile that is let be, in units of the picture's mean. */
+#define UNSEEN 0.003
+
 enum { TILE = 8, MAX_RUNS = 64 };
 
 static const char *const channels[3] = {"R", "G", "B"};
@@ -73,6 +76,14 @@ static double mean_of(const struct exr_picture *p, int channel, int x0, int y0,
     return sum / ((double)(x1 - x0) * (y1 - y0));
 }
 
+static double mean_of_all(const struct exr_picture *p)
+{
+    double sum = 0;
+    for (int c = 0; c < 3; c++)
+        sum += mean_of(p, c, 0, 0, p->width, p->height);
+    return sum / 3;
+}
+
 static int print_mean(const char *path, char *const part[4])
 {
     struct exr_picture *p = load(path);
@@ -94,9 +105,7 @@ static int print_relrmse(const char *path, const char *path_ref)
 {
     struct exr_picture *p = load(path), *ref = load(path_ref);
     need_same_size(p, ref);
-    double mean = 0, sum = 0;
-    for (int c = 0; c < 3; c++)
-        mean += mean_of(ref, c, 0, 0, ref->width, ref->height) / 3;
+    double mean = mean_of_all(ref), sum = 0;
     size_t pixels = (size_t)p->width * (size_t)p->height;
     for (int c = 0; c < 3; c++) {
         const float *x = exr_plane(p, channels[c]);
@@ -158,11 +167,12 @@ struct bias {
 };
 
 /* The means of one tile in the runs against the reference's. The variance of
- * the reference's mean is the runs' over `effort`, its share of samples.
- * Tiles where all runs agree (black) must agree with the reference too. */
+ * the reference's mean is the runs' over `effort`, its share of samples; what
+ * is below `unseen` is none: light that comes so rarely that the runs may not
+ * have met it. */
 static double tile_t(struct exr_picture *const *run, int runs,
-                     const struct exr_picture *ref, double effort, int channel,
-                     const int part[4])
+                     const struct exr_picture *ref, double effort,
+                     double unseen, int channel, const int part[4])
 {
     double mean = 0, spread = 0, value[MAX_RUNS];
     for (int i = 0; i < runs; i++) {
@@ -172,22 +182,21 @@ static double tile_t(struct exr_picture *const *run, int runs,
     for (int i = 0; i < runs; i++)
         spread += (value[i] - mean) * (value[i] - mean) / (runs - 1);
     double truth = mean_of(ref, channel, part[0], part[1], part[2], part[3]);
-    /* Samples are floats: closer than their rounding is the same. */
-    double rounding = 1e-6 * fabs(truth);
     return (mean - truth) / sqrt(spread / runs + spread / effort
-                                 + rounding * rounding + 1e-60);
+                                 + unseen * unseen);
 }
 
 static struct bias worst_tile(struct exr_picture *const *run, int runs,
                               const struct exr_picture *ref, double effort)
 {
     struct bias bias = {0};
+    double unseen = UNSEEN * mean_of_all(ref);
     for (int y = 0; y < ref->height; y += TILE)
         for (int x = 0; x < ref->width; x += TILE)
             for (int c = 0; c < 3; c++) {
                 int right = x + TILE < ref->width ? x + TILE : ref->width;
                 int low = y + TILE < ref->height ? y + TILE : ref->height;
-                double t = tile_t(run, runs, ref, effort, c,
+                double t = tile_t(run, runs, ref, effort, unseen, c,
                                   (const int[4]){x, y, right, low});
                 bias.tests++;
                 if (fabs(t) > fabs(bias.worst) || bias.tests == 1) {
