@@ -360,7 +360,9 @@ static void test_time_is_limited(void **state)
                              .length = sizeof text - 1,
                              .ambient = PARSE_AMBIENT_INIT};
     in.limits.seconds = 0.05;
-    assert_int_equal(read_input(&in).code, BRUME_ERR_LIMIT);
+    struct outcome got = read_input(&in);
+    assert_int_equal(got.code, BRUME_ERR_LIMIT);
+    assert_non_null(strstr(got.text, "takes longer than"));
 }
 
 /* Whatever the memory, the end is orderly. */
