@@ -227,6 +227,27 @@ static bool message(struct expander *expander, const struct pending *pending)
 
 /* ---- which is which ---------------------------------------------------- */
 
+bool directive_run_bare(struct expander *expander, const struct token *token)
+{
+    static const struct {
+        const char *word;
+        uint16_t kind;
+    } bare[] = {{"declare", TOK_HASH_DECLARE}, {"default", TOK_HASH_DEFAULT},
+                {"include", TOK_HASH_INCLUDE}};
+    for (size_t i = 0; i < sizeof bare / sizeof *bare; i++) {
+        if (strcmp(token->name->text, bare[i].word) == 0) {
+            struct token directive = *token;
+            directive.kind = bare[i].kind;
+            parser_warn(expander->parser, token_location(token),
+                        "'%s' should have a '#' before it", bare[i].word);
+            expand_frame(expander)->next++;
+            return directive_run(expander, &directive);
+        }
+    }
+    report_bad(expander->parser, token);
+    return false;
+}
+
 bool directive_run(struct expander *expander, const struct token *token)
 {
     struct location at = token_location(token);
@@ -250,6 +271,9 @@ bool directive_run(struct expander *expander, const struct token *token)
         return expand_begin(expander, TOK_MODE_VALUE, USE_VERSION, at);
     case TOK_HASH_DEFAULT:
         return expand_begin(expander, TOK_MODE_DEFAULT, USE_DEFAULT, at);
+    case TOK_HASH_ALONE:
+        parser_warn(expander->parser, at, "'#' without a directive");
+        return true;
     default:
         return branch_run(expander, token);
     }

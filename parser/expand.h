@@ -164,6 +164,9 @@ bool expand_return(struct expander *expander, size_t frames,
 /* ---- directive.c ---- */
 
 bool directive_run(struct expander *expander, const struct token *token);
+/* A word without a rule: POV-Ray takes some directives without their '#'. */
+bool directive_run_bare(struct expander *expander,
+                        const struct token *token);
 bool directive_finish(struct expander *expander,
                       const struct pending *pending);
 /* Warns if a name that is used was declared deprecated. */

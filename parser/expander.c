@@ -414,7 +414,7 @@ static bool value_ends(const struct expander *expander,
         return !accepts(pending, kind_of(&expander->hold_value))
             && accepts(pending, TOK_END);
     }
-    if (kind == TOK_BAD || kind == TOK_UNSUPPORTED) {
+    if (kind == TOK_BAD) {
         return false;
     }
     if (kind == TOK_END && expander->frames > pending->frames) {
@@ -469,9 +469,10 @@ static bool run_token(struct expander *expander)
     case TOK_IDENTIFIER:
         return run_name(expander, token);
     case TOK_BAD:
-    case TOK_UNSUPPORTED:
         report_bad(expander->parser, token);
         return false;
+    case TOK_UNSUPPORTED:
+        return directive_run_bare(expander, token);
     }
     expand_frame(expander)->next++;
     switch (token->kind) {

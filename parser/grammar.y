@@ -72,7 +72,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token HASH_MACRO "'#macro'"
 %token HASH_DECLARE "'#declare'" HASH_LOCAL "'#local'" HASH_UNDEF "'#undef'"
 %token HASH_INCLUDE "'#include'" HASH_VERSION "'#version'"
-%token HASH_DEFAULT "'#default'"
+%token HASH_DEFAULT "'#default'" HASH_ALONE "'#'"
 %token HASH_DEBUG "'#debug'" HASH_WARNING "'#warning'" HASH_ERROR "'#error'"
 
 %token <value> NUMBER "number" STRING "string"
@@ -217,6 +217,8 @@ expr:
   | VECTOR_ID
   | COLOR_ID
   | '<' components '>'
+        { $$ = eval_components(parser, $2, @1); }
+  | '<' components ',' '>'
         { $$ = eval_components(parser, $2, @1); }
   | '(' full ')'
         { $$ = $2; }

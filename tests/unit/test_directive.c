@@ -168,7 +168,7 @@ static void test_texts_of_nothing(void **state)
     assert_int_equal(read_text("").code, BRUME_OK);
     assert_int_equal(read_text("\xEF\xBB\xBF").code, BRUME_OK);
     assert_int_equal(read_text(" \t\r\n\f\v\x1A").code, BRUME_OK);
-    assert_int_equal(read_text("#").code, BRUME_ERR_SCENE);
+    assert_int_equal(read_text("#").code, BRUME_OK);
     assert_int_equal(read_text("\"").code, BRUME_ERR_SCENE);
     assert_int_equal(read_text("\"\\").code, BRUME_ERR_SCENE);
     assert_int_equal(read_text("/*").code, BRUME_ERR_SCENE);
