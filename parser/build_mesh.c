@@ -1,7 +1,6 @@
-/* build_mesh.c - triangle, smooth_triangle, mesh and mesh2. */
+/* build_mesh.c - triangle, smooth_triangle and mesh. */
 #include <string.h>
 
-#include "lib/memory.h"
 #include "lib/mesh.h"
 #include "parser/builder.h"
 
@@ -12,7 +11,7 @@ const struct param build_mesh_params[] = {
     {0}};
 
 /* A mesh of the builder's list, so that nothing is lost when a parse fails. */
-struct model_mesh *build_mesh_new(struct parser *parser, struct location at)
+static struct model_mesh *new_mesh(struct parser *parser, struct location at)
 {
     struct model_mesh *mesh = parser_alloc(parser, sizeof *mesh);
     struct brume_error err = {0};
@@ -29,13 +28,13 @@ struct model_mesh *build_mesh_new(struct parser *parser, struct location at)
     return NULL;
 }
 
-static void open_any_mesh(struct parser *parser, struct frame *frame,
-                          const char *word)
+void build_mesh_open(struct parser *parser, struct frame *frame,
+                     const char *word)
 {
     struct object *object = build_object_start(frame, OBJECT_MESH,
                                                BRUME_SHAPE_MESH, word);
 
-    object->mesh = build_mesh_new(parser, frame->at);
+    object->mesh = new_mesh(parser, frame->at);
 }
 
 /* ---- triangles --------------------------------------------------------- */
@@ -50,7 +49,7 @@ static void open_triangle(struct parser *parser, struct frame *frame)
         return;
     frame->node = build_node(parser, VALUE_OBJECT, sizeof(struct object));
     if (frame->node)
-        open_any_mesh(parser, frame, "triangle");
+        build_mesh_open(parser, frame, "triangle");
 }
 
 static void triangle_argument(struct parser *parser, struct frame *frame,
@@ -68,7 +67,7 @@ static void triangle_argument(struct parser *parser, struct frame *frame,
                   number, 1, at);
 }
 
-static bool add_normal(struct mesh *mesh, const double n[3],
+bool build_mesh_normal(struct mesh *mesh, const double n[3],
                        struct brume_error *err)
 {
     float normal[3] = {(float)n[0], (float)n[1], (float)n[2]};
@@ -100,7 +99,7 @@ static bool add_triangle(struct builder *builder, struct mesh *mesh,
     for (int i = 0; i < 3; i++) {
         int at = smooth ? 2 * i : i;
         if (!mesh_add_vertex(mesh, builder->corner[at], err) ||
-            (smooth && !add_normal(mesh, builder->corner[at + 1], err)))
+            (smooth && !build_mesh_normal(mesh, builder->corner[at + 1], err)))
             return false;
     }
     if (!add_uvs(builder, mesh, err))
@@ -217,11 +216,11 @@ const struct statement build_statement_smooth_triangle = {
 
 static void open_mesh(struct parser *parser, struct frame *frame)
 {
-    open_any_mesh(parser, frame, "mesh");
+    build_mesh_open(parser, frame, "mesh");
 }
 
-static void set_mesh(struct parser *parser, struct frame *frame,
-                     const struct param *row, struct location at)
+void build_mesh_set(struct parser *parser, struct frame *frame,
+                    const struct param *row, struct location at)
 {
     const struct object *object = frame->node;
     const double *v = object->inside;
@@ -270,228 +269,5 @@ const struct statement build_statement_mesh = {
     .apply = build_object_apply,
     .move = build_object_move,
     .close = close_mesh,
-    .set = set_mesh,
-};
-
-/* ---- mesh2: its lists -------------------------------------------------- */
-
-enum { LIST_FACES, LIST_NORMALS, LIST_UVS };
-
-static void open_list(struct parser *parser, struct frame *frame)
-{
-    frame->node = build_around(parser)->node;
-    parser->builder->announced = -1;
-    parser->builder->listed = 0;
-}
-
-/* The first number of a list says how many items follow. */
-static bool announced(struct parser *parser, struct frame *frame,
-                      const struct value *number, struct location at)
-{
-    struct builder *builder = parser->builder;
-
-    if (frame->arguments == 0) {
-        if (number->terms != 1 || !(number->v[0] >= 0) ||
-            number->v[0] > 4294967294.0)
-            parser_error(parser, at, "the count of a list must be from 0 to "
-                         "4294967294");
-        builder->announced = (int64_t)number->v[0];
-        /* Counted on in 64 bits by `listed`. */
-        return false;
-    }
-    frame->arguments = 1;
-    if (builder->listed++ < builder->announced)
-        return true;
-    return parser_error(parser, at, "this list announces %lld items but has "
-                        "more", (long long)builder->announced);
-}
-
-static void list_vector(struct parser *parser, struct frame *frame,
-                        const struct value *number, struct location at)
-{
-    struct object *object = frame->node;
-    struct mesh *mesh = object->mesh->mesh;
-    struct value v = value_promote(*number, 3);
-    struct brume_error err = {0};
-    bool fine;
-
-    if (!announced(parser, frame, number, at))
-        return;
-    if (frame->kind == BUILD_VERTEX_VECTORS) {
-        fine = mesh_add_vertex(mesh, v.v, &err);
-    } else if (frame->kind == BUILD_NORMAL_VECTORS) {
-        fine = add_normal(mesh, v.v, &err);
-    } else {
-        float uv[2] = {(float)v.v[0], (float)v.v[1]};
-        fine = mesh_add_uv(mesh, uv, &err);
-    }
-    if (!fine)
-        parser_relay(parser, at, &err);
-}
-
-static struct index_list *list_of(struct parser *parser, enum build_kind kind)
-{
-    struct index_list *lists = parser->builder->indices;
-
-    if (kind == BUILD_FACE_INDICES)
-        return &lists[LIST_FACES];
-    return &lists[kind == BUILD_NORMAL_INDICES ? LIST_NORMALS : LIST_UVS];
-}
-
-static void list_index(struct parser *parser, struct frame *frame,
-                       const struct value *number, struct location at)
-{
-    struct index_list *list = list_of(parser, frame->kind);
-    struct brume_error err = {0};
-    uint32_t (*item)[3];
-
-    if (frame->arguments > 0 && number->terms == 1) {
-        parser_error(parser, at, "textures of single triangles are not "
-                     "supported yet");
-        return;
-    }
-    if (!announced(parser, frame, number, at))
-        return;
-    item = memory_grow(list->item, &list->room, list->count + 1,
-                       sizeof *item, &err);
-    if (!item) {
-        parser_relay(parser, at, &err);
-        return;
-    }
-    list->item = item;
-    for (int i = 0; i < 3; i++) {
-        double index = number->v[i];
-        if (!(index >= 0 && index <= 4294967294.0)) {
-            parser_error(parser, at, "%g is no index", index);
-            return;
-        }
-        item[list->count][i] = (uint32_t)index;
-    }
-    list->count++;
-}
-
-static void close_list(struct parser *parser, struct frame *frame,
-                       struct location at)
-{
-    struct builder *builder = parser->builder;
-
-    (void)at;
-    if (builder->listed < builder->announced)
-        parser_error(parser, frame->at, "this list announces %lld items but "
-                     "has %lld", (long long)builder->announced,
-                     (long long)builder->listed);
-}
-
-static const struct param list_rows[] = {{.word = "count"}, {0}};
-
-#define LIST_STATEMENT(name, item)                                            \
-    const struct statement build_statement_##name = {                         \
-        .word = #name,                                                        \
-        .arguments = list_rows,                                               \
-        .needed = 1,                                                          \
-        .open = open_list,                                                    \
-        .argument = item,                                                     \
-        .close = close_list,                                                  \
-    }
-
-LIST_STATEMENT(vertex_vectors, list_vector);
-LIST_STATEMENT(normal_vectors, list_vector);
-LIST_STATEMENT(uv_vectors, list_vector);
-LIST_STATEMENT(face_indices, list_index);
-LIST_STATEMENT(normal_indices, list_index);
-LIST_STATEMENT(uv_indices, list_index);
-
-/* ---- mesh2: its triangles ---------------------------------------------- */
-
-static void open_mesh2(struct parser *parser, struct frame *frame)
-{
-    for (int i = 0; i < 3; i++)
-        parser->builder->indices[i].count = 0;
-    open_any_mesh(parser, frame, "mesh2");
-}
-
-/* Without indices of their own, as many normals or uvs as vertices go with
- * the vertices. */
-static const struct index_list *indices_for(const struct builder *builder,
-                                            int which, size_t items,
-                                            size_t vertices)
-{
-    const struct index_list *own = &builder->indices[which];
-
-    if (items == 0 || own->count > 0)
-        return own;
-    return items == vertices ? &builder->indices[LIST_FACES] : own;
-}
-
-static bool make_triangles(const struct builder *builder, struct mesh *mesh,
-                           struct brume_error *err)
-{
-    static const uint32_t none[3] = {MESH_NONE, MESH_NONE, MESH_NONE};
-    const struct index_list *faces = &builder->indices[LIST_FACES];
-    const struct index_list *normals = indices_for(
-        builder, LIST_NORMALS, mesh->normals, mesh->vertices);
-    const struct index_list *uvs = indices_for(builder, LIST_UVS, mesh->uvs,
-                                               mesh->vertices);
-
-    for (size_t i = 0; i < faces->count; i++) {
-        const uint32_t *normal =
-            i < normals->count ? normals->item[i] : none;
-        if (!mesh_add_triangle(mesh, faces->item[i],
-                               normals->count ? normal : NULL,
-                               uvs->count ? uvs->item[i] : NULL, err))
-            return false;
-    }
-    return true;
-}
-
-/* POV-Ray's rules of how many indices go with how many faces. */
-static bool check_counts(struct parser *parser, const struct mesh *mesh,
-                         struct location at)
-{
-    const struct index_list *list = parser->builder->indices;
-
-    if (list[LIST_FACES].count == 0)
-        return parser_error(parser, at, "this mesh2 has no face_indices");
-    if (list[LIST_NORMALS].count > list[LIST_FACES].count)
-        return parser_error(parser, at, "this mesh2 has %zu normal_indices "
-                            "for %zu faces", list[LIST_NORMALS].count,
-                            list[LIST_FACES].count);
-    if (list[LIST_UVS].count > 0 &&
-        list[LIST_UVS].count != list[LIST_FACES].count)
-        return parser_error(parser, at, "this mesh2 has %zu uv_indices for "
-                            "%zu faces", list[LIST_UVS].count,
-                            list[LIST_FACES].count);
-    if (mesh->normals > 0 && list[LIST_NORMALS].count == 0 &&
-        mesh->normals != mesh->vertices)
-        return parser_error(parser, at, "this mesh2 needs normal_indices: it "
-                            "has %zu normals for %zu vertices",
-                            mesh->normals, mesh->vertices);
-    return true;
-}
-
-static void close_mesh2(struct parser *parser, struct frame *frame,
-                        struct location at)
-{
-    struct object *object = frame->node;
-    struct mesh *mesh = object->mesh->mesh;
-    struct brume_error err = {0};
-
-    (void)at;
-    if (!check_counts(parser, mesh, frame->at))
-        return;
-    if (!make_triangles(parser->builder, mesh, &err) ||
-        !mesh_check(mesh, &err))
-        parser_relay(parser, frame->at, &err);
-}
-
-const struct statement build_statement_mesh2 = {
-    .word = "mesh2",
-    .makes = VALUE_OBJECT,
-    .size = sizeof(struct object),
-    .params = build_mesh_params,
-    .open = open_mesh2,
-    .apply = build_object_apply,
-    .move = build_object_move,
-    .close = close_mesh2,
-    .set = set_mesh,
+    .set = build_mesh_set,
 };

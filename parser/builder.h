@@ -175,7 +175,13 @@ bool build_wear(struct parser *parser, struct placed_texture *worn,
 bool build_wear_placed(struct parser *parser, struct placed_texture *worn,
                        const struct placed_texture *over, struct location at);
 
-struct model_mesh *build_mesh_new(struct parser *parser, struct location at);
+/* What mesh and mesh2 have in common. */
+void build_mesh_open(struct parser *parser, struct frame *frame,
+                     const char *word);
+void build_mesh_set(struct parser *parser, struct frame *frame,
+                    const struct param *row, struct location at);
+bool build_mesh_normal(struct mesh *mesh, const double n[3],
+                       struct brume_error *err);
 void build_globals_start(struct globals *globals);
 bool build_place_atmosphere(struct parser *parser);
 
