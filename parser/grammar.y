@@ -187,7 +187,6 @@ default_open:
         { build_open(parser, "#default", @1); }
   ;
 
-
 /* ---- values ------------------------------------------------------------ */
 
 /* What can be declared. */
@@ -216,9 +215,7 @@ expr:
   | FLOAT_ID
   | VECTOR_ID
   | COLOR_ID
-  | '<' components '>'
-        { $$ = eval_components(parser, $2, @1); }
-  | '<' components ',' '>'
+  | '<' components comma '>'
         { $$ = eval_components(parser, $2, @1); }
   | '(' full ')'
         { $$ = $2; }
@@ -368,9 +365,7 @@ size:
   ;
 
 list:
-    '{' items '}'
-        { $$ = eval_list(parser, $2); }
-  | '{' items ',' '}'
+    '{' items comma '}'
         { $$ = eval_list(parser, $2); }
   ;
 

@@ -31,7 +31,7 @@ cat ./*.txt | awk -v work="$work" '
 debug_output()
 {
     sed -n '1,/^==== \[Parsing/d; /^File .*Parse Warning/,$d; p' |
-        sed '/^\(Fatal error\|Render failed\|File \)/,$d' | tr -d ' \n\t\r'
+        sed '/^\(Fatal error\|Render failed\|File \|==== \)/,$d' | tr -d ' \n\t\r'
 }
 
 cd "$work" || exit 2
