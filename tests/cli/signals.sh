@@ -18,8 +18,7 @@ new_case 'SIGINT in the middle of a picture'
 pid=$!
 wait_for 'frame 0' said
 sleep 0.3
-# A shell lets its background processes ignore SIGINT; SIGTERM gets through.
-kill -TERM $pid
+kill -INT $pid
 wait $pid
 took $?
 exits 75
