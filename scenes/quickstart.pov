@@ -26,10 +26,10 @@ camera {
     look_at <-0.26, 0.70, 0>
 }
 
-background { rgb <0.007, 0.011, 0.022> }
+background { rgb <0.010, 0.016, 0.034> }
 
 // The moon: far away, and no dimmer for it, since nothing says fade_distance.
-light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.07 }
+light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.13 }
 
 // ---- the ground
 
