@@ -126,7 +126,7 @@ box {
     interior {
         media {
             density { density_file vdb File "density" up z }
-            scattering { 5, rgb 4 eccentricity 0.3 }
+            scattering { 5, rgb 3 eccentricity 0.3 }
             absorption rgb 1.5
             fire {
                 temperature { density_file vdb File "temperature" up z }
