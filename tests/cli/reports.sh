@@ -3,15 +3,7 @@
 . "$(dirname "$0")/lib"
 write_scene s.pov
 
-# json FILE FILTER: what jq prints, or a check that it is there.
-json()
-{
-    if command -v jq >/dev/null; then
-        jq -r "$2" "$1"
-    else
-        python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$1"
-    fi
-}
+json=$ROOT/${B:-build}/tests/tools/json
 
 new_case '--explain prints each stage and its reason'
 brume s.pov --explain +Ono.png
@@ -23,7 +15,7 @@ lacks no.png
 new_case '--explain=json is JSON'
 brume s.pov --explain=json
 exits 0
-json printed .brume >value || complain 'it is not JSON'
+"$json" printed brume >value || complain 'it is not JSON'
 prints '"reason"'
 
 new_case '--explain of a film plans its first frame'
@@ -41,7 +33,7 @@ lacks no1.png
 new_case '--stats is JSON with every frame'
 quick s.pov +KFF2 +Ofilm.png --stats stats.json
 exits 0
-json stats.json .exit_code >value || complain 'it is not JSON'
+"$json" stats.json exit_code >value || complain 'it is not JSON'
 for key in spp error paths rays majorant_exceeded backend seconds picture; do
     is "$(grep -c "\"$key\"" stats.json)" 2
 done
