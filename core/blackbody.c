@@ -3,15 +3,16 @@
 #include <math.h>
 
 /* CODATA 2018, exact by the definition of the units. */
-static const double planck = 6.62607015e-34;        /* J s   */
-static const double light_speed = 299792458;        /* m/s   */
-static const double boltzmann = 1.380649e-23;       /* J/K   */
+static const double planck = 6.62607015e-34;  /* J s   */
+static const double light_speed = 299792458;  /* m/s   */
+static const double boltzmann = 1.380649e-23; /* J/K   */
 
-static const double lumens_per_watt = 683;          /* K_m   */
+static const double lumens_per_watt = 683; /* K_m   */
 
 /* Colour matching functions of the 2-degree observer [CIE 1931], from 360 to
  * 830 nm in steps of 5 nm: x, y, z. */
 enum { CIE_FIRST_NM = 360, CIE_STEP_NM = 5, CIE_COUNT = 95 };
+/* clang-format off */
 static const double cie[CIE_COUNT][3] = {
     {0.0001299, 3.917e-6, 0.0006061}, {0.0002321, 6.965e-6, 0.001086},
     {0.0004149, 1.239e-5, 0.001946}, {0.0007416, 2.202e-5, 0.003486},
@@ -62,6 +63,7 @@ static const double cie[CIE_COUNT][3] = {
     {2.522525e-6, 9.1093e-7, 0}, {1.776509e-6, 6.4153e-7, 0},
     {1.251141e-6, 4.5181e-7, 0},
 };
+/* clang-format on */
 
 /* B/T at s = 1/T, W/(m2 sr m K): analytic at s = 0, where it is the limit of
  * Rayleigh and Jeans, and beyond. */
@@ -70,8 +72,7 @@ static double planck_over_t(double s, double wavelength)
     const double c2 = planck * light_speed / boltzmann;
     double x = c2 * s / wavelength;
     double decay = x == 0 ? wavelength / c2 : s / expm1(x);
-    return 2 * planck * light_speed * light_speed * decay
-         / pow(wavelength, 5);
+    return 2 * planck * light_speed * light_speed * decay / pow(wavelength, 5);
 }
 
 static void xyz_over_t(double s, double xyz[3])
@@ -79,8 +80,8 @@ static void xyz_over_t(double s, double xyz[3])
     xyz[0] = xyz[1] = xyz[2] = 0;
     for (int i = 0; i < CIE_COUNT; i++) {
         double wavelength = (CIE_FIRST_NM + i * CIE_STEP_NM) * 1e-9;
-        double weight = lumens_per_watt * CIE_STEP_NM * 1e-9
-                      * planck_over_t(s, wavelength);
+        double weight = lumens_per_watt * CIE_STEP_NM * 1e-9 *
+                        planck_over_t(s, wavelength);
         for (int k = 0; k < 3; k++)
             xyz[k] += weight * cie[i][k];
     }
@@ -95,8 +96,8 @@ void blackbody_xyz(double kelvin, double xyz[3])
 
 void blackbody_fill(blackbody_table *t)
 {
-    const double step = 1 / (BLACKBODY_LOWEST_KELVIN
-                             * (BLACKBODY_ENTRIES - 1.0));
+    const double step = 1 /
+                        (BLACKBODY_LOWEST_KELVIN * (BLACKBODY_ENTRIES - 1.0));
     for (int i = 0; i < BLACKBODY_ENTRIES + 2; i++) {
         double xyz[3];
         xyz_over_t((i - 1) * step, xyz);

@@ -34,11 +34,11 @@ void brume_scene_free(brume_scene *scene)
 }
 
 /* Appends to one of the lists and returns the id. */
-#define APPEND(scene, list, value, err)                                       \
-    (list_room((void **)&(scene)->list, &(scene)->list##_capacity,            \
-               (scene)->list##_count, sizeof *(scene)->list, err)             \
-         ? ((scene)->list[(scene)->list##_count] = (value),                   \
-            (int)(scene)->list##_count++)                                     \
+#define APPEND(scene, list, value, err)                                        \
+    (list_room((void **)&(scene)->list, &(scene)->list##_capacity,             \
+               (scene)->list##_count, sizeof *(scene)->list, err)              \
+         ? ((scene)->list[(scene)->list##_count] = (value),                    \
+            (int)(scene)->list##_count++)                                      \
          : -1)
 
 static bool list_room(void **list, size_t *capacity, size_t count, size_t size,
@@ -64,8 +64,8 @@ static bool all_finite(const double *v, int n)
 static bool check_finite(const double *v, int n, const char *what,
                          struct brume_error *err)
 {
-    return all_finite(v, n) || brume_fail(err, BRUME_ERR_SCENE,
-                                      "%s is not finite", what);
+    return all_finite(v, n) ||
+           brume_fail(err, BRUME_ERR_SCENE, "%s is not finite", what);
 }
 
 static bool check_not_negative(const double *v, int n, const char *what,
@@ -114,8 +114,7 @@ bool brume_set_camera(brume_scene *scene, const struct brume_camera *camera,
     return true;
 }
 
-bool brume_set_globals(brume_scene *scene,
-                       const struct brume_globals *globals,
+bool brume_set_globals(brume_scene *scene, const struct brume_globals *globals,
                        struct brume_error *err)
 {
     if (!check_finite(globals->background, 3, "the background", err) ||
@@ -154,8 +153,8 @@ int brume_add_material(brume_scene *scene,
                        struct brume_error *err)
 {
     const struct brume_material *m = material;
-    double finish[7] = {m->diffuse, m->brilliance, m->phong, m->phong_size,
-                        m->specular, m->roughness, m->metallic};
+    double finish[7] = {m->diffuse,  m->brilliance, m->phong,   m->phong_size,
+                        m->specular, m->roughness,  m->metallic};
     if (!check_finite(m->color[0], 10, "a pigment's colour", err) ||
         !check_finite(m->ambient, 3, "the finish's ambient", err) ||
         !check_finite(m->emission, 3, "the finish's emission", err) ||
@@ -165,8 +164,8 @@ int brume_add_material(brume_scene *scene,
     return APPEND(scene, materials, *m, err);
 }
 
-static bool check_shape(const brume_scene *scene,
-                        const struct brume_shape *s, struct brume_error *err)
+static bool check_shape(const brume_scene *scene, const struct brume_shape *s,
+                        struct brume_error *err)
 {
     double radii[2] = {s->radius, s->radius_b};
     bool signed_radius = s->kind == BRUME_SHAPE_PLANE;
@@ -174,8 +173,7 @@ static bool check_shape(const brume_scene *scene,
         !check_finite(s->b, 3, "a shape's point", err) ||
         !check_finite(radii, 2, "a shape's radius", err) ||
         !check_transform(s->transform, "a shape", err) ||
-        !check_id(s->material, scene->materials_count, true, "material",
-                  err) ||
+        !check_id(s->material, scene->materials_count, true, "material", err) ||
         !check_id(s->interior, scene->interiors_count, true, "interior", err))
         return false;
     if (s->kind == BRUME_SHAPE_MESH)
@@ -242,8 +240,10 @@ static bool check_fire(const brume_scene *scene, const struct brume_fire *f,
                             err))
         return false;
     if (f->brightness == BRUME_BRIGHTNESS_TOTAL && !(f->reference > 0))
-        return brume_fail(err, BRUME_ERR_SCENE, "the fire's reference is %g "
-                          "K but must be greater than 0", f->reference);
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "the fire's reference is %g "
+                          "K but must be greater than 0",
+                          f->reference);
     return f->brightness != BRUME_BRIGHTNESS_PHYSICAL || f->reference >= 500 ||
            brume_fail(err, BRUME_ERR_SCENE,
                       "the fire's reference is %g K but must be at least "
@@ -251,8 +251,7 @@ static bool check_fire(const brume_scene *scene, const struct brume_fire *f,
                       f->reference);
 }
 
-static bool check_medium(const brume_scene *scene,
-                         const struct brume_medium *m,
+static bool check_medium(const brume_scene *scene, const struct brume_medium *m,
                          struct brume_error *err)
 {
     if (!check_not_negative(m->absorption, 3, "absorption", err) ||
@@ -272,10 +271,10 @@ static bool check_medium(const brume_scene *scene,
     if (m->densities < 0 || m->densities > BRUME_MAX_DENSITIES)
         return brume_fail(err, BRUME_ERR_LIMIT,
                           "a medium has %d densities but at most %d are "
-                          "possible", m->densities, BRUME_MAX_DENSITIES);
+                          "possible",
+                          m->densities, BRUME_MAX_DENSITIES);
     for (int i = 0; i < m->densities; i++)
-        if (!check_id(m->density[i], scene->fields_count, false, "field",
-                      err))
+        if (!check_id(m->density[i], scene->fields_count, false, "field", err))
             return false;
     return !m->fire.on || check_fire(scene, &m->fire, err);
 }

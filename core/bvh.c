@@ -5,7 +5,9 @@
 
 enum { BINS = 16, LEAF = 4, MEDIAN_DEPTH = BVH_STACK / 2 - 2 };
 
-struct box { float lo[3], hi[3]; };
+struct box {
+    float lo[3], hi[3];
+};
 
 struct bin {
     struct box box;
@@ -19,7 +21,7 @@ struct task {
 };
 
 struct split {
-    int axis, bin;          /* items of bins <= bin go left                */
+    int axis, bin; /* items of bins <= bin go left                */
     float cost;
 };
 
@@ -72,8 +74,7 @@ static void fill_bins(const struct bvh_item *items, size_t count, int axis,
     }
 }
 
-static void try_axis(const struct bin bins[BINS], int axis,
-                     struct split *best)
+static void try_axis(const struct bin bins[BINS], int axis, struct split *best)
 {
     float right_cost[BINS];
     struct box box;
@@ -173,8 +174,8 @@ static bool make_node(struct flat *f, struct bvh_item *items,
         return false;
     f->bvh[t.node].first = child;
     f->bvh[t.node].count = 0;
-    stack[(*tasks)++] = (struct task){t.first + left, t.count - left,
-                                      child + 1, t.depth + 1};
+    stack[(*tasks)++] = (struct task){t.first + left, t.count - left, child + 1,
+                                      t.depth + 1};
     stack[(*tasks)++] = (struct task){t.first, left, child, t.depth + 1};
     return true;
 }

@@ -14,8 +14,8 @@ static bool check_part(const struct brume_options *o, struct brume_error *err)
         o->x0 > o->x1 || o->y0 > o->y1)
         return brume_fail(err, BRUME_ERR_USAGE,
                           "columns %d to %d, rows %d to %d do not lie in a "
-                          "picture of %d x %d pixels", o->x0, o->x1, o->y0,
-                          o->y1, o->width, o->height);
+                          "picture of %d x %d pixels",
+                          o->x0, o->x1, o->y0, o->y1, o->width, o->height);
     return true;
 }
 

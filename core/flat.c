@@ -18,8 +18,8 @@ void *flat_extend(void **array, size_t *capacity, size_t *count, size_t more,
 
 void flat_view(struct flat *flat)
 {
-#define X(type, name)                                                         \
-    flat->view.name = flat->name;                                             \
+#define X(type, name)                                                          \
+    flat->view.name = flat->name;                                              \
     flat->view.name##_count = flat->name##_count;
     SCENE_ARRAYS(X)
 #undef X

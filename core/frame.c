@@ -14,10 +14,10 @@ struct frame_job {
     const struct brume_options *options;
     struct brume_frame *out;
     struct film film;
-    double start, sampling;     /* seconds of the clock                    */
-    double error;               /* aimed at, 0: none                       */
-    uint32_t most;              /* samples                                 */
-    uint32_t pass;              /* samples of the current pass             */
+    double start, sampling; /* seconds of the clock                    */
+    double error;           /* aimed at, 0: none                       */
+    uint32_t most;          /* samples                                 */
+    uint32_t pass;          /* samples of the current pass             */
     bool stopped;
 };
 
@@ -74,7 +74,8 @@ static bool tick(void *user, double done)
         return true;
     double now = timer_seconds(), samples = j->film.samples + done * j->pass;
     struct brume_progress p = {
-        .stage = "path", .item = "paths",
+        .stage = "path",
+        .item = "paths",
         .fraction = fraction(j, samples),
         .seconds = now - j->start,
     };
@@ -120,7 +121,7 @@ static uint32_t next_pass(const struct frame_job *j, int met)
     uint32_t want = n == 0 ? FIRST_PASS : n;
     if (n > 0 && j->error > 0.0)
         want = error_wants(j, met);
-    want += want & 1u;          /* the halves stay equal */
+    want += want & 1u; /* the halves stay equal */
     want = want < j->most - n ? want : j->most - n;
     return time_allows(j, want);
 }
@@ -158,26 +159,31 @@ static void report_goal(const struct frame_job *j)
     char text[256];
     if (j->error > 0.0 && s->error > j->error &&
         j->film.samples >= BRUME_MAX_SPP) {
-        snprintf(text, sizeof text, "the error of %g was not reached with %d "
-                 "samples per pixel; it is about %.3g", j->error, s->spp,
-                 s->error);
+        snprintf(text, sizeof text,
+                 "the error of %g was not reached with %d "
+                 "samples per pixel; it is about %.3g",
+                 j->error, s->spp, s->error);
         warn(j, text);
     }
     if (s->overflow > 0) {
-        snprintf(text, sizeof text, "more than %d media or containers overlap "
-                 "on %llu segments; those beyond were left out", MAX_ACTIVE,
-                 (unsigned long long)s->overflow);
+        snprintf(text, sizeof text,
+                 "more than %d media or containers overlap "
+                 "on %llu segments; those beyond were left out",
+                 MAX_ACTIVE, (unsigned long long)s->overflow);
         warn(j, text);
     }
     if (s->majorant_exceeded > 0) {
-        snprintf(text, sizeof text, "a density exceeded its bound at %llu "
+        snprintf(text, sizeof text,
+                 "a density exceeded its bound at %llu "
                  "places: this is a fault of the program",
                  (unsigned long long)s->majorant_exceeded);
         warn(j, text);
     }
     if (s->rejected > 0) {
-        snprintf(text, sizeof text, "%llu samples were not finite and were "
-                 "left out", (unsigned long long)s->rejected);
+        snprintf(text, sizeof text,
+                 "%llu samples were not finite and were "
+                 "left out",
+                 (unsigned long long)s->rejected);
         warn(j, text);
     }
 }
@@ -204,8 +210,7 @@ static bool render_flat(struct frame_job *j, const struct flat *flat,
         !check_memory(j, flat, err))
         return false;
     struct stages stages = plan_stages(flat);
-    struct backend_frame frame = {flat, j->options, &stages, &j->film, tick,
-                                  j};
+    struct backend_frame frame = {flat, j->options, &stages, &j->film, tick, j};
     snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
              b->name);
     void *state = b->open(&frame, err);
@@ -214,16 +219,18 @@ static bool render_flat(struct frame_job *j, const struct flat *flat,
     j->out->stats.seconds_prepare = timer_seconds() - j->start;
     bool good = sample_passes(j, b, state, err);
     b->close(state);
-    return good && film_resolve(&j->film, j->options->omit_background, j->out,
-                                err);
+    return good &&
+           film_resolve(&j->film, j->options->omit_background, j->out, err);
 }
 
 static struct flat *prepare(brume_scene *scene,
                             const struct brume_options *options,
                             struct brume_error *err)
 {
-    struct prepare p = {.scene = scene, .threads = options->threads,
-                        .warn = options->warn, .user = options->user};
+    struct prepare p = {.scene = scene,
+                        .threads = options->threads,
+                        .warn = options->warn,
+                        .user = options->user};
     return prepare_scene(&p, err);
 }
 
@@ -231,8 +238,8 @@ bool brume_render(brume_scene *scene, const struct brume_options *options,
                   struct brume_frame *frame, struct brume_error *err)
 {
     memset(frame, 0, sizeof *frame);
-    struct frame_job job = {.options = options, .out = frame,
-                            .start = timer_seconds()};
+    struct frame_job job = {
+        .options = options, .out = frame, .start = timer_seconds()};
     set_goal(&job);
     struct flat *flat = prepare(scene, options, err);
     bool good = flat && render_flat(&job, flat, err);

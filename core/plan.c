@@ -68,7 +68,7 @@ static const char *path_reason(const struct flat *f, const struct stages *s)
 {
     if (!s->path)
         return f->view.scatters ? "nothing lights the scattering media"
-             : "no surface, and no medium scatters";
+                                : "no surface, and no medium scatters";
     if (!f->view.scatters)
         return "surfaces are lit";
     return f->view.media_multiple ? "media scatter, many times"
@@ -98,10 +98,12 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
 {
     for (size_t i = 0; i < scene->grids_count; i++) {
         const struct grid *g = scene->grids[i];
-        add_note(plan, "grid %zu '%s': %zu of %zu bricks stored, values %g "
-                 "to %g", i, g->name, g->stored,
+        add_note(plan,
+                 "grid %zu '%s': %zu of %zu bricks stored, values %g "
+                 "to %g",
+                 i, g->name, g->stored,
                  (size_t)g->bricks[0] * (size_t)g->bricks[1] *
-                 (size_t)g->bricks[2],
+                     (size_t)g->bricks[2],
                  (double)g->lowest, (double)g->highest);
     }
     if (f->cells_count > 0)
@@ -109,8 +111,7 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
 }
 
 /* The range a field's file says it has. */
-static void field_range(const brume_scene *s, int field, double *lo,
-                        double *hi)
+static void field_range(const brume_scene *s, int field, double *lo, double *hi)
 {
     const struct brume_field *f = &s->fields[field];
     *lo = *hi = f->scale;
@@ -131,20 +132,22 @@ static void note_fires(const brume_scene *scene, struct brume_plan *plan)
         lo = f->kelvin_scale * lo + f->kelvin_offset;
         hi = f->kelvin_scale * hi + f->kelvin_offset;
         add_note(plan, "fire of medium %zu: %.0f to %.0f kelvin%s", i,
-                 fmin(lo, hi), fmax(lo, hi), fmax(lo, hi) < 500.0
-                 ? ", too cold to be seen (a black body glows from 500)"
-                 : "");
+                 fmin(lo, hi), fmax(lo, hi),
+                 fmax(lo, hi) < 500.0
+                     ? ", too cold to be seen (a black body glows from 500)"
+                     : "");
         if (!f->additive && scene->media[i].absorption[0] == 0.0 &&
             scene->media[i].absorption[1] == 0.0 &&
             scene->media[i].absorption[2] == 0.0)
-            add_note(plan, "fire of medium %zu: its coupling is absorption, "
-                     "which is zero, so it emits nothing", i);
+            add_note(plan,
+                     "fire of medium %zu: its coupling is absorption, "
+                     "which is zero, so it emits nothing",
+                     i);
     }
 }
 
 void plan_describe(const brume_scene *scene, const struct flat *f,
-                   const struct brume_options *options,
-                   struct brume_plan *plan)
+                   const struct brume_options *options, struct brume_plan *plan)
 {
     struct stages s = plan_stages(f);
     uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
@@ -153,7 +156,7 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               s.load ? "media read grids" : "no medium reads a grid");
     add_stage(plan, "accel", s.accel,
               f->bvh_count * sizeof *f->bvh +
-              f->triangles_count * sizeof *f->triangles,
+                  f->triangles_count * sizeof *f->triangles,
               s.accel ? "there is bounded geometry"
                       : "there is no bounded geometry");
     add_stage(plan, "glow", s.glow, f->glow_voxels_count * sizeof(float),

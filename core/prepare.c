@@ -10,7 +10,9 @@
 /* Rays end here at the latest, in scene units, as in POV-Ray. */
 #define FAR 1e7
 
-struct bounds { double lo[3], hi[3]; };
+struct bounds {
+    double lo[3], hi[3];
+};
 
 static void bounds_add(struct bounds *b, const double p[3])
 {
@@ -47,8 +49,8 @@ static void bounds_add_shape(struct bounds *b, const brume_scene *scene,
     case BRUME_SHAPE_CYLINDER:
     case BRUME_SHAPE_CONE:
         bounds_add_ball(b, &m, s->a, s->radius);
-        bounds_add_ball(b, &m, s->b, s->kind == BRUME_SHAPE_CONE
-                                         ? s->radius_b : s->radius);
+        bounds_add_ball(b, &m, s->b,
+                        s->kind == BRUME_SHAPE_CONE ? s->radius_b : s->radius);
         return;
     case BRUME_SHAPE_BOX:
         for (int i = 0; i < 8; i++) {

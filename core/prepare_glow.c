@@ -12,9 +12,9 @@ struct glow_job {
     const struct flat *flat;
     const flat_medium *medium;
     flat_glow *glow;
-    float *voxels;          /* 512 a brick: weights, then cumulative       */
+    float *voxels; /* 512 a brick: weights, then cumulative       */
     glow_brick *bricks;
-    double *weight;         /* of each brick                               */
+    double *weight; /* of each brick                               */
 };
 
 /* Negative channels of saturated colours count by their size. */
@@ -24,8 +24,7 @@ static float point_weight(const struct glow_job *job, vec3 p)
     field_point x = field_point_make(s, job->medium->lead, p);
     rgb q = medium_source(s, job->medium, &x,
                           medium_density(s, job->medium, &x));
-    return fabsf(q.r) * 0.2126f + fabsf(q.g) * 0.7152f +
-           fabsf(q.b) * 0.0722f;
+    return fabsf(q.r) * 0.2126f + fabsf(q.g) * 0.7152f + fabsf(q.b) * 0.0722f;
 }
 
 /* Mean over the centres of the voxel's eighths. */
@@ -70,8 +69,7 @@ static bool list_bricks(struct flat *f, const flat_medium *m, flat_glow *g,
     if (!slots)
         return false;
     for (size_t i = 0; i < cells; i++)
-        slots[i] = f->cells[m->cell + i].rate > 0.0f ? (int32_t)g->count++
-                                                     : -1;
+        slots[i] = f->cells[m->cell + i].rate > 0.0f ? (int32_t)g->count++ : -1;
     glow_brick *bricks = FLAT_EXTEND(f, glow_bricks, g->count, err);
     if (!bricks || !FLAT_EXTEND(f, glow_voxels, 512 * g->count, err))
         return false;
@@ -106,8 +104,8 @@ static bool place(flat_glow *g, const flat_medium *m)
 }
 
 /* Weighs the bricks; the list's whole power in *power. */
-static bool weigh(const struct prepare *job, const flat_medium *m,
-                  flat_glow *g, double *power, struct brume_error *err)
+static bool weigh(const struct prepare *job, const flat_medium *m, flat_glow *g,
+                  double *power, struct brume_error *err)
 {
     struct flat *f = job->flat;
     struct glow_job w = {.flat = f, .medium = m, .glow = g};
@@ -132,8 +130,8 @@ static bool weigh(const struct prepare *job, const flat_medium *m,
     return true;
 }
 
-static bool add_glow(const struct prepare *job, int32_t medium,
-                     double *power, struct brume_error *err)
+static bool add_glow(const struct prepare *job, int32_t medium, double *power,
+                     struct brume_error *err)
 {
     struct flat *f = job->flat;
     flat_glow g;
@@ -147,7 +145,7 @@ static bool add_glow(const struct prepare *job, int32_t medium,
         return false;
     if (!(*power > 0.0))
         return true;
-    g.probability = (float)*power;      /* of all lists: below */
+    g.probability = (float)*power; /* of all lists: below */
     f->media[medium].glow = (int32_t)f->glows_count;
     flat_glow *out = FLAT_EXTEND(f, glows, 1, err);
     if (out)

@@ -10,8 +10,8 @@
 struct brick_job {
     const struct grid *grid;
     const flat_grid *out;
-    float *voxels;          /* of the grid's first stored brick            */
-    const int32_t *where;   /* brick index of each                         */
+    float *voxels;        /* of the grid's first stored brick            */
+    const int32_t *where; /* brick index of each                         */
 };
 
 /* Between the background and the lowest sample of an axis a lookup still
@@ -205,11 +205,12 @@ bool prepare_grids(const struct prepare *job, struct brume_error *err)
 }
 
 /* Largest sample of a brick, its apron included. */
-static float brick_bound(const struct flat *f, const flat_grid *g, int x,
-                         int y, int z)
+static float brick_bound(const struct flat *f, const flat_grid *g, int x, int y,
+                         int z)
 {
-    int32_t slot = f->slots[g->slot + (size_t)x + (size_t)g->bricks[0] *
-                            ((size_t)y + (size_t)g->bricks[1] * (size_t)z)];
+    int32_t slot = f->slots[g->slot + (size_t)x +
+                            (size_t)g->bricks[0] *
+                                ((size_t)y + (size_t)g->bricks[1] * (size_t)z)];
     if (slot < 0)
         return f->tiles[g->tile + (size_t)(-1 - slot)];
     const float *v = f->voxels + (g->brick + (size_t)slot) * BRICK_FLOATS;
@@ -220,12 +221,13 @@ static float brick_bound(const struct flat *f, const flat_grid *g, int x,
 }
 
 /* Image of a box under a map: the box around its corners. */
-static void box_image(const matrix *map, const double lo[3],
-                      const double hi[3], double out_lo[3], double out_hi[3])
+static void box_image(const matrix *map, const double lo[3], const double hi[3],
+                      double out_lo[3], double out_hi[3])
 {
     for (int c = 0; c < 8; c++) {
         double p[3] = {c & 1 ? hi[0] : lo[0], c & 2 ? hi[1] : lo[1],
-                       c & 4 ? hi[2] : lo[2]}, q[3];
+                       c & 4 ? hi[2] : lo[2]},
+               q[3];
         matrix_point(map, p, q);
         for (int i = 0; i < 3; i++) {
             out_lo[i] = c == 0 ? q[i] : fmin(out_lo[i], q[i]);

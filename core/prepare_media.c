@@ -23,7 +23,7 @@
 struct lattice {
     const struct flat *flat;
     flat_medium *medium;
-    matrix to_unit;         /* lattice index space to unit space           */
+    matrix to_unit; /* lattice index space to unit space           */
     int32_t origin[3];
     float rate;
     majorant_cell *cell;
@@ -76,7 +76,8 @@ static bool include_field(const struct flat *f, const matrix *to_lead,
     field_box(f, field, a, b);
     for (int c = 0; c < 8; c++) {
         double p[3] = {c & 1 ? b[0] : a[0], c & 2 ? b[1] : a[1],
-                       c & 4 ? b[2] : a[2]}, q[3];
+                       c & 4 ? b[2] : a[2]},
+               q[3];
         matrix_point(&map, p, q);
         for (int i = 0; i < 3; i++) {
             lo[i] = fmin(lo[i], q[i]);
@@ -87,8 +88,7 @@ static bool include_field(const struct flat *f, const matrix *to_lead,
 }
 
 /* Cells from the lowest brick to the highest that may hold something. */
-static bool lattice_extent(struct lattice *l, int lead,
-                           struct brume_error *err)
+static bool lattice_extent(struct lattice *l, int lead, struct brume_error *err)
 {
     const struct flat *f = l->flat;
     const flat_medium *m = l->medium;
@@ -112,7 +112,8 @@ static bool lattice_extent(struct lattice *l, int lead,
         if (cells > (double)MAX_CELLS)
             return brume_fail(err, BRUME_ERR_LIMIT,
                               "a medium's grids lie so far apart that their "
-                              "common lattice has over %zu cells", MAX_CELLS);
+                              "common lattice has over %zu cells",
+                              MAX_CELLS);
         l->origin[i] = g->origin[i] + 8 * (int32_t)first;
         l->medium->cells[i] = (int32_t)count;
     }
@@ -125,10 +126,9 @@ static bool glows(const flat_medium *m, float density, float kelvin,
     bool plain = density > 0.0f && !rgb_is_black(m->emission);
     if (!m->fire || m->intensity == 0.0f)
         return plain;
-    bool coupled = m->additive ||
-                   (density > 0.0f && !rgb_is_black(m->sigma_a));
-    return plain || (coupled && amount > 0.0f &&
-                     kelvin >= BLACKBODY_LOWEST_KELVIN);
+    bool coupled = m->additive || (density > 0.0f && !rgb_is_black(m->sigma_a));
+    return plain ||
+           (coupled && amount > 0.0f && kelvin >= BLACKBODY_LOWEST_KELVIN);
 }
 
 typedef float field_bound(const struct lattice *l, int field,
@@ -163,10 +163,11 @@ static float bound_beyond(const struct lattice *l, int field,
         !matrix_invert(&l->to_unit, &to_lattice))
         return prepare_field_bound_everywhere(f, field);
     map = matrix_compose(&to_lattice, &back);
-    const double slack = 1.001;     /* the margin of field_box, and rounding */
+    const double slack = 1.001; /* the margin of field_box, and rounding */
     for (int c = 0; c < 8; c++) {
         double p[3] = {c & 1 ? b[0] : a[0], c & 2 ? b[1] : a[1],
-                       c & 4 ? b[2] : a[2]}, q[3];
+                       c & 4 ? b[2] : a[2]},
+               q[3];
         matrix_point(&map, p, q);
         for (int i = 0; i < 3; i++)
             if (q[i] < lo[i] - slack || q[i] > hi[i] + slack)
@@ -222,8 +223,8 @@ static float neighbours_bound(const struct lattice *l, size_t index)
             z = c[2] + i / 9 - 1;
         if (x < 0 || y < 0 || z < 0 || x >= n[0] || y >= n[1] || z >= n[2])
             continue;
-        size_t at = (size_t)x + (size_t)n[0] *
-                    ((size_t)y + (size_t)n[1] * (size_t)z);
+        size_t at = (size_t)x +
+                    (size_t)n[0] * ((size_t)y + (size_t)n[1] * (size_t)z);
         most = fmaxf(most, l->cell[at].density);
     }
     return most;
@@ -242,8 +243,8 @@ static void allow_for_rounding(struct lattice *l, size_t cells)
     }
 }
 
-static bool make_lattice(const struct prepare *job, struct lattice *l,
-                         int lead, struct brume_error *err)
+static bool make_lattice(const struct prepare *job, struct lattice *l, int lead,
+                         struct brume_error *err)
 {
     flat_medium *m = l->medium;
     matrix to_index = affine_matrix(&l->flat->fields[lead].to_index);
@@ -354,18 +355,16 @@ static void set_coefficients(const struct prepare *job, flat_medium *m,
     m->sigma_a = color_per_unit(in->absorption, unit);
     m->sigma_s = color_per_unit(in->scattering, unit);
     m->emission = color_per_unit(in->emission, unit);
-    m->sigma_t = rgb_add(m->sigma_a,
-                         rgb_scale(m->sigma_s, (float)extinction));
+    m->sigma_t = rgb_add(m->sigma_a, rgb_scale(m->sigma_s, (float)extinction));
     rgb sum = rgb_add(m->sigma_a, m->sigma_s);
-    m->bound = rgb_make(fmaxf(m->sigma_t.r, sum.r),
-                        fmaxf(m->sigma_t.g, sum.g),
+    m->bound = rgb_make(fmaxf(m->sigma_t.r, sum.r), fmaxf(m->sigma_t.g, sum.g),
                         fmaxf(m->sigma_t.b, sum.b));
     m->phase = (int32_t)in->phase;
     m->g = (float)in->eccentricity;
 }
 
-static bool add_medium(const struct prepare *job,
-                       const struct brume_medium *in, struct brume_error *err)
+static bool add_medium(const struct prepare *job, const struct brume_medium *in,
+                       struct brume_error *err)
 {
     struct flat *f = job->flat;
     flat_medium m;

@@ -151,7 +151,7 @@ static int32_t add_normals(struct flat *f, const struct mesh *m, size_t t,
     for (int i = 0; out && i < 3; i++) {
         const float *n = m->normal[m->corner_normal[t][i]];
         double v[3] = {n[0], n[1], n[2]}, w[3];
-        for (int k = 0; k < 3; k++)     /* transposed: normals */
+        for (int k = 0; k < 3; k++) /* transposed: normals */
             w[k] = normal_map->m[0][k] * v[0] + normal_map->m[1][k] * v[1] +
                    normal_map->m[2][k] * v[2];
         out[i] = vec3_normalize(to_vec3(w));
@@ -199,8 +199,7 @@ static bool add_triangles(struct flat *f, const struct mesh *m,
 
 static int32_t shape_flags(const struct brume_shape *in)
 {
-    return (in->hollow ? SHAPE_HOLLOW : 0) |
-           (in->inverse ? SHAPE_INVERSE : 0) |
+    return (in->hollow ? SHAPE_HOLLOW : 0) | (in->inverse ? SHAPE_INVERSE : 0) |
            (in->shadow ? 0 : SHAPE_NO_SHADOW);
 }
 
@@ -223,7 +222,7 @@ static bool add_shape(const struct prepare *job, const struct brume_shape *in,
     if (out->kind == SHAPE_MESH)
         return add_triangles(f, job->scene->meshes[in->mesh], &map, id, err);
     if (!matrix_finite(&map) || !matrix_invert(&map, &inverse)) {
-        out->kind = SHAPE_MESH;     /* of no triangles */
+        out->kind = SHAPE_MESH; /* of no triangles */
         if (job->warn)
             job->warn(job->user, "a shape without extent is left out");
         return true;
@@ -241,8 +240,7 @@ static matrix shape_map(const flat_shape *s)
     return out;
 }
 
-static void triangle_item(const struct flat *f, size_t i,
-                          struct bvh_item *out)
+static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
 {
     const vec3 *p = f->triangles[i].p;
     vec3 lo = vec3_min(p[0], vec3_min(p[1], p[2]));

@@ -11,8 +11,8 @@ struct arena_chunk {
 };
 
 /* The head is padded so that what follows it is aligned. */
-#define HEAD ((sizeof(struct arena_chunk) + ALIGNMENT - 1) / ALIGNMENT \
-              * ALIGNMENT)
+#define HEAD                                                                   \
+    ((sizeof(struct arena_chunk) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
 
 void arena_init(struct arena *arena, size_t limit)
 {

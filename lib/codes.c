@@ -7,7 +7,7 @@
 bool codes_init(struct codes *codes, const struct image *image, int bits,
                 bool alpha, struct brume_error *err)
 {
-    static const char *const names[] = { "R", "G", "B", "A" };
+    static const char *const names[] = {"R", "G", "B", "A"};
     memset(codes, 0, sizeof *codes);
     if (bits != 8 && bits != 16)
         return brume_fail(err, BRUME_ERR_USAGE,

@@ -11,8 +11,8 @@ enum { HEADER = 6 };
 struct df3 {
     const char *path;
     FILE *stream;
-    int size[3];                /* samples along x, y, z                   */
-    size_t width;               /* bytes of a sample: 1, 2 or 4            */
+    int size[3];  /* samples along x, y, z                   */
+    size_t width; /* bytes of a sample: 1, 2 or 4            */
     struct brume_error *err;
 };
 
@@ -44,9 +44,10 @@ static bool read_header(struct df3 *d)
     if (found < 0)
         return false;
     if (found < HEADER)
-        return brume_fail_file(d->err, d->path, "is no df3 file: it has %lld "
-                               "bytes, and the sizes alone take %d", found,
-                               HEADER);
+        return brume_fail_file(d->err, d->path,
+                               "is no df3 file: it has %lld "
+                               "bytes, and the sizes alone take %d",
+                               found, HEADER);
     if (!read_bytes(d, head, sizeof head))
         return false;
     long long samples = 1;
@@ -55,22 +56,20 @@ static bool read_header(struct df3 *d)
         samples *= d->size[i];
     }
     for (d->width = 1; d->width <= 4; d->width *= 2)
-        if (samples > 0 &&
-            found == HEADER + samples * (long long)d->width)
+        if (samples > 0 && found == HEADER + samples * (long long)d->width)
             return true;
-    return brume_fail_file(d->err, d->path, "a df3 file of %d x %d x %d "
+    return brume_fail_file(d->err, d->path,
+                           "a df3 file of %d x %d x %d "
                            "samples has %lld, %lld or %lld bytes (8, 16 or "
                            "32 bits a sample); this has %lld",
-                           d->size[0], d->size[1], d->size[2],
-                           HEADER + samples, HEADER + 2 * samples,
-                           HEADER + 4 * samples, found);
+                           d->size[0], d->size[1], d->size[2], HEADER + samples,
+                           HEADER + 2 * samples, HEADER + 4 * samples, found);
 }
 
 /* The grid's bricks hold samples -1 to n along each axis. */
 static struct grid *make_grid(const struct df3 *d, enum grid_filter filter)
 {
-    static const int32_t origin[3] = { -GRID_BRICK, -GRID_BRICK,
-                                       -GRID_BRICK };
+    static const int32_t origin[3] = {-GRID_BRICK, -GRID_BRICK, -GRID_BRICK};
     int32_t bricks[3];
     for (int i = 0; i < 3; i++)
         bricks[i] = d->size[i] / GRID_BRICK + 2;
@@ -90,8 +89,8 @@ static struct grid *make_grid(const struct df3 *d, enum grid_filter filter)
 
 static float decode(const unsigned char *bytes, size_t width)
 {
-    static const double largest[] = { [1] = UINT8_MAX, [2] = UINT16_MAX,
-                                      [4] = UINT32_MAX };
+    static const double largest[] = {
+        [1] = UINT8_MAX, [2] = UINT16_MAX, [4] = UINT32_MAX};
     uint32_t value = 0;
     for (size_t i = 0; i < width; i++)
         value = value << 8 | bytes[i];
@@ -111,8 +110,8 @@ static bool set_sample(struct grid *g, int x, int y, int z, float value,
     x += GRID_BRICK;
     y += GRID_BRICK;
     z += GRID_BRICK;
-    float *brick = grid_brick(g, x / GRID_BRICK, y / GRID_BRICK,
-                              z / GRID_BRICK, err);
+    float *brick = grid_brick(g, x / GRID_BRICK, y / GRID_BRICK, z / GRID_BRICK,
+                              err);
     if (!brick)
         return false;
     brick[x % GRID_BRICK +
@@ -127,9 +126,8 @@ static bool fill_layer(const struct df3 *d, struct grid *g,
                        const unsigned char *slice, int z)
 {
     for (int y = -1; y <= d->size[1]; y++) {
-        const unsigned char *row =
-            slice + (size_t)clamp(y, d->size[1]) * (size_t)d->size[0] *
-                        d->width;
+        const unsigned char *row = slice + (size_t)clamp(y, d->size[1]) *
+                                               (size_t)d->size[0] * d->width;
         for (int x = -1; x <= d->size[0]; x++) {
             size_t at = (size_t)clamp(x, d->size[0]) * d->width;
             if (!set_sample(g, x, y, z, decode(row + at, d->width), d->err))
@@ -170,7 +168,7 @@ static struct grid *load(struct df3 *d, enum grid_filter filter)
 struct grid *df3_load(const char *path, enum grid_filter filter,
                       struct brume_error *err)
 {
-    struct df3 d = { .path = path, .err = err };
+    struct df3 d = {.path = path, .err = err};
     d.stream = fopen(path, "rb");
     if (!d.stream) {
         brume_fail_file(err, path, "can't be read: %s", strerror(errno));

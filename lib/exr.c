@@ -8,7 +8,7 @@
 #include "lib/memory.h"
 #include "lib/output.h"
 
-enum { BLOCK_LINES = 16 };      /* of ZIP compression                      */
+enum { BLOCK_LINES = 16 }; /* of ZIP compression                      */
 
 /* A header can promise any size; beyond this no file of ours or of a plate
  * goes, and the planes would take over a GiB each. */
@@ -17,7 +17,7 @@ enum { BLOCK_LINES = 16 };      /* of ZIP compression                      */
 /* What the library's callbacks see. */
 struct session {
     const char *path;
-    int fd;                     /* of the output; -1 when reading          */
+    int fd; /* of the output; -1 when reading          */
     struct brume_error *err;
 };
 
@@ -59,8 +59,8 @@ static exr_context_initializer_t initializer(struct session *s)
 /* ---- writing ---- */
 
 static int64_t write_bytes(exr_const_context_t context, void *user,
-                           const void *buffer, uint64_t size,
-                           uint64_t offset, exr_stream_error_func_ptr_t fail)
+                           const void *buffer, uint64_t size, uint64_t offset,
+                           exr_stream_error_func_ptr_t fail)
 {
     const struct session *s = user;
     const char *from = buffer;
@@ -81,22 +81,22 @@ static int64_t write_bytes(exr_const_context_t context, void *user,
 }
 
 static bool write_header(const struct session *s, exr_context_t context,
-                         const struct image *image,
-                         const struct exr_text *text, size_t texts)
+                         const struct image *image, const struct exr_text *text,
+                         size_t texts)
 {
     int part;
-    bool ok = check(s, exr_add_part(context, NULL, EXR_STORAGE_SCANLINE,
-                                    &part)) &&
+    bool ok = check(s,
+                    exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, &part)) &&
               check(s, exr_initialize_required_attr_simple(
                            context, part, image->width, image->height,
                            EXR_COMPRESSION_ZIP));
     for (size_t i = 0; ok && i < image->channels; i++)
         ok = check(s, exr_add_channel(context, part, image->channel[i].name,
-                                      EXR_PIXEL_FLOAT,
-                                      EXR_PERCEPTUALLY_LINEAR, 1, 1));
+                                      EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR,
+                                      1, 1));
     for (size_t i = 0; ok && i < texts; i++)
-        ok = check(s, exr_attr_set_string(context, part, text[i].name,
-                                          text[i].value));
+        ok = check(
+            s, exr_attr_set_string(context, part, text[i].name, text[i].value));
     return ok && check(s, exr_write_header(context));
 }
 
@@ -107,8 +107,7 @@ static void fill_block(const struct image *image, int y,
     size_t width = (size_t)image->width;
     for (int c = 0; c < encode->channel_count; c++) {
         exr_coding_channel_info_t *to = &encode->channels[c];
-        const struct image_channel *from = image_find(image,
-                                                      to->channel_name);
+        const struct image_channel *from = image_find(image, to->channel_name);
         float *plane = block + (size_t)c * BLOCK_LINES * width;
         for (int line = 0; line < to->height; line++)
             image_row(image, from, y + line, plane + (size_t)line * width, 1);
@@ -126,17 +125,17 @@ static bool write_blocks(const struct session *s, exr_context_t context,
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
     bool ok = true;
     for (int y = 0; ok && y < image->height; y += BLOCK_LINES) {
-        exr_chunk_info_t chunk = { 0 };
+        exr_chunk_info_t chunk = {0};
         ok = check(s, exr_write_scanline_chunk_info(context, 0, y, &chunk)) &&
              check(s, y == 0
-                    ? exr_encoding_initialize(context, 0, &chunk, &encode)
-                    : exr_encoding_update(context, 0, &chunk, &encode));
+                          ? exr_encoding_initialize(context, 0, &chunk, &encode)
+                          : exr_encoding_update(context, 0, &chunk, &encode));
         if (!ok)
             break;
         fill_block(image, y, &encode, block);
         if (y == 0)
-            ok = check(s, exr_encoding_choose_default_routines(context, 0,
-                                                               &encode));
+            ok = check(
+                s, exr_encoding_choose_default_routines(context, 0, &encode));
         ok = ok && check(s, exr_encoding_run(context, 0, &encode));
     }
     exr_encoding_destroy(context, &encode);
@@ -174,7 +173,7 @@ bool exr_save(const char *path, const struct image *image,
     struct output *o = output_open(path, err);
     if (!o)
         return false;
-    struct session s = { path, fileno(output_stream(o)), err };
+    struct session s = {path, fileno(output_stream(o)), err};
     return output_close(o, write_file(&s, image, text, texts), err);
 }
 
@@ -187,7 +186,8 @@ static bool window_size(const struct session *s, const exr_attr_box2i_t *box,
     int64_t h = (int64_t)box->max.y - box->min.y + 1;
     if (w < 1 || h < 1 || w > MAX_PIXELS || h > MAX_PIXELS ||
         w * h > MAX_PIXELS)
-        return brume_fail_file(s->err, s->path, "a window of %lld x %lld "
+        return brume_fail_file(s->err, s->path,
+                               "a window of %lld x %lld "
                                "pixels is empty or over the limit of %lld",
                                (long long)w, (long long)h,
                                (long long)MAX_PIXELS);
@@ -203,8 +203,7 @@ static bool read_windows(const struct session *s, exr_context_t context,
     if (!check(s, exr_get_data_window(context, 0, &data)) ||
         !check(s, exr_get_display_window(context, 0, &display)) ||
         !window_size(s, &data, &picture->width, &picture->height) ||
-        !window_size(s, &display, &picture->full_width,
-                     &picture->full_height))
+        !window_size(s, &display, &picture->full_width, &picture->full_height))
         return false;
     picture->x = (int)((int64_t)data.min.x - display.min.x);
     picture->y = (int)((int64_t)data.min.y - display.min.y);
@@ -226,9 +225,11 @@ static bool make_planes(const struct session *s, exr_context_t context,
     for (size_t i = 0; i < count; i++) {
         const exr_attr_chlist_entry_t *entry = &list->entries[i];
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
-            return brume_fail_file(s->err, s->path, "channel %.200s has fewer "
+            return brume_fail_file(s->err, s->path,
+                                   "channel %.200s has fewer "
                                    "samples than pixels, which is not "
-                                   "supported", entry->name.str);
+                                   "supported",
+                                   entry->name.str);
         snprintf(picture->name[i], sizeof picture->name[i], "%s",
                  entry->name.str);
         picture->plane[i] = memory_new(pixels, sizeof(float), s->err);
@@ -248,11 +249,11 @@ static void aim(exr_decode_pipeline_t *decode, struct exr_picture *picture,
     for (int c = 0; c < decode->channel_count; c++) {
         exr_coding_channel_info_t *to = &decode->channels[c];
         to->user_bytes_per_element = sizeof(float);
-        to->user_data_type = to->data_type == EXR_PIXEL_UINT
-                                 ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
+        to->user_data_type = to->data_type == EXR_PIXEL_UINT ? EXR_PIXEL_UINT
+                                                             : EXR_PIXEL_FLOAT;
         to->user_pixel_stride = sizeof(float);
-        to->user_line_stride =
-            (int32_t)((size_t)picture->width * sizeof(float));
+        to->user_line_stride = (int32_t)((size_t)picture->width *
+                                         sizeof(float));
         to->decode_to_ptr = (uint8_t *)(picture->plane[c] + offset);
     }
 }
@@ -283,9 +284,9 @@ static bool read_scanlines(const struct session *s, exr_context_t context,
         !check(s, exr_get_data_window(context, 0, &data)))
         return false;
     for (int y = 0; y < picture->height; y += lines) {
-        exr_chunk_info_t chunk = { 0 };
-        if (!check(s, exr_read_scanline_chunk_info(context, 0,
-                                                   data.min.y + y, &chunk)) ||
+        exr_chunk_info_t chunk = {0};
+        if (!check(s, exr_read_scanline_chunk_info(context, 0, data.min.y + y,
+                                                   &chunk)) ||
             !decode_chunk(s, context, &chunk, decode, picture, 0, y))
             return false;
     }
@@ -300,14 +301,13 @@ static bool read_tiles(const struct session *s, exr_context_t context,
     if (!check(s, exr_get_tile_sizes(context, 0, 0, 0, &wide, &high)))
         return false;
     if (wide < 1 || high < 1)
-        return brume_fail_file(s->err, s->path, "tiles of %d x %d pixels",
-                               wide, high);
+        return brume_fail_file(s->err, s->path, "tiles of %d x %d pixels", wide,
+                               high);
     for (int y = 0; y < picture->height; y += high)
         for (int x = 0; x < picture->width; x += wide) {
-            exr_chunk_info_t chunk = { 0 };
+            exr_chunk_info_t chunk = {0};
             if (!check(s, exr_read_tile_chunk_info(context, 0, x / wide,
-                                                   y / high, 0, 0,
-                                                   &chunk)) ||
+                                                   y / high, 0, 0, &chunk)) ||
                 !decode_chunk(s, context, &chunk, decode, picture, x, y))
                 return false;
         }
@@ -339,11 +339,11 @@ static bool read_pixels(const struct session *s, exr_context_t context,
         return false;
     bool tiled = storage == EXR_STORAGE_TILED;
     if (parts != 1 || (!tiled && storage != EXR_STORAGE_SCANLINE))
-        return brume_fail_file(s->err, s->path, "has %d parts%s; one part "
-                               "of plain pixels is needed", parts,
-                               parts == 1 ? " of deep pixels" : "");
-    if (!read_windows(s, context, picture) ||
-        !make_planes(s, context, picture))
+        return brume_fail_file(s->err, s->path,
+                               "has %d parts%s; one part "
+                               "of plain pixels is needed",
+                               parts, parts == 1 ? " of deep pixels" : "");
+    if (!read_windows(s, context, picture) || !make_planes(s, context, picture))
         return false;
     exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
     bool ok = tiled ? read_tiles(s, context, picture, &decode)
@@ -356,7 +356,7 @@ static bool read_pixels(const struct session *s, exr_context_t context,
 
 struct exr_picture *exr_load(const char *path, struct brume_error *err)
 {
-    struct session s = { path, -1, err };
+    struct session s = {path, -1, err};
     exr_context_initializer_t init = initializer(&s);
     exr_context_t context = NULL;
     struct exr_picture *picture = memory_new(1, sizeof *picture, err);

@@ -13,8 +13,7 @@ enum { BACKGROUND_SLOT = -1, BACKGROUND_BYTE = 0xff };
 
 static size_t brick_count(const struct grid *g)
 {
-    return (size_t)g->bricks[0] * (size_t)g->bricks[1] *
-           (size_t)g->bricks[2];
+    return (size_t)g->bricks[0] * (size_t)g->bricks[1] * (size_t)g->bricks[2];
 }
 
 static bool check_extent(const int32_t origin[3], const int32_t bricks[3],
@@ -25,7 +24,8 @@ static bool check_extent(const int32_t origin[3], const int32_t bricks[3],
         if (bricks[i] < 1 || origin[i] % GRID_BRICK != 0)
             return brume_fail(err, BRUME_ERR_LIMIT,
                               "a grid of %d bricks from sample %d is not one "
-                              "of whole bricks", bricks[i], origin[i]);
+                              "of whole bricks",
+                              bricks[i], origin[i]);
         int64_t end = origin[i] + (int64_t)bricks[i] * GRID_BRICK;
         if (!memory_multiply(total, (size_t)bricks[i], &total) ||
             total > MAX_BRICKS || end > INT32_MAX)
@@ -76,7 +76,7 @@ void grid_free(struct grid *g)
 static size_t slot_index(const struct grid *g, int bx, int by, int bz)
 {
     return (size_t)bx + (size_t)g->bricks[0] *
-           ((size_t)by + (size_t)g->bricks[1] * (size_t)bz);
+                            ((size_t)by + (size_t)g->bricks[1] * (size_t)bz);
 }
 
 /* The struct keeps counts, not capacities: capacities are the powers of two
@@ -96,8 +96,8 @@ float *grid_brick(struct grid *g, int bx, int by, int bz,
     int32_t *slot = &g->slot[slot_index(g, bx, by, bz)];
     if (*slot >= 0)
         return g->voxel + (size_t)*slot * GRID_BRICK_VOXELS;
-    float *voxel = grow(g->voxel, g->stored,
-                        GRID_BRICK_VOXELS * sizeof *voxel, err);
+    float *voxel = grow(g->voxel, g->stored, GRID_BRICK_VOXELS * sizeof *voxel,
+                        err);
     if (!voxel)
         return NULL;
     g->voxel = voxel;
@@ -111,8 +111,7 @@ float *grid_brick(struct grid *g, int bx, int by, int bz,
 
 /* The slot of a constant, or 0 with err set. Runs of equal tiles, which are
  * what readers make, share one constant at once; grid_finish merges others. */
-static int32_t tile_slot(struct grid *g, float value,
-                         struct brume_error *err)
+static int32_t tile_slot(struct grid *g, float value, struct brume_error *err)
 {
     if (value == g->tile[0])
         return BACKGROUND_SLOT;
@@ -138,7 +137,7 @@ bool grid_set_tile(struct grid *g, int bx, int by, int bz, float value,
 
 float grid_sample(const struct grid *g, int x, int y, int z)
 {
-    int64_t at[3] = { x, y, z };
+    int64_t at[3] = {x, y, z};
     for (int i = 0; i < 3; i++) {
         at[i] -= g->origin[i];
         if (at[i] < 0 || at[i] >= (int64_t)g->bricks[i] * GRID_BRICK)
@@ -203,8 +202,7 @@ static void bricks_to_tiles(struct grid *g)
     for (size_t i = 0; i < slots; i++) {
         if (g->slot[i] < 0)
             continue;
-        const float *brick =
-            g->voxel + (size_t)g->slot[i] * GRID_BRICK_VOXELS;
+        const float *brick = g->voxel + (size_t)g->slot[i] * GRID_BRICK_VOXELS;
         int32_t slot = is_constant(brick) ? tile_slot(g, brick[0], NULL) : 0;
         if (slot != 0)
             g->slot[i] = slot;
@@ -213,7 +211,7 @@ static void bricks_to_tiles(struct grid *g)
 
 struct numbered {
     float value;
-    int32_t from;       /* its number among the tiles before              */
+    int32_t from; /* its number among the tiles before              */
 };
 
 static int by_value(const void *a, const void *b)
@@ -254,8 +252,8 @@ static void merge_tiles(struct grid *g)
         place[0] = 0;
         for (size_t k = 0; k < count; k++) {
             bool background = list[k].value == g->tile[0];
-            if (!background && (g->tiles == 1 ||
-                                list[k].value != g->tile[g->tiles - 1]))
+            if (!background &&
+                (g->tiles == 1 || list[k].value != g->tile[g->tiles - 1]))
                 g->tile[g->tiles++] = list[k].value;
             place[list[k].from] = background ? 0 : (int32_t)g->tiles - 1;
         }
@@ -325,8 +323,8 @@ static void trim(struct grid *g)
         return;
     }
     size_t capacity = power_capacity(g->stored);
-    float *voxel = realloc(g->voxel, capacity * GRID_BRICK_VOXELS *
-                                         sizeof *voxel);
+    float *voxel = realloc(g->voxel,
+                           capacity * GRID_BRICK_VOXELS * sizeof *voxel);
     if (voxel)
         g->voxel = voxel;
 }

@@ -15,8 +15,9 @@ bool image_check(const struct image *image, struct brume_error *err)
         image->y0 < 0 || image->y0 > image->y1 || image->y1 > image->height)
         return brume_fail(err, BRUME_ERR_USAGE,
                           "the region %d..%d x %d..%d is not inside a picture "
-                          "of %d x %d pixels", image->x0, image->x1,
-                          image->y0, image->y1, image->width, image->height);
+                          "of %d x %d pixels",
+                          image->x0, image->x1, image->y0, image->y1,
+                          image->width, image->height);
     return true;
 }
 
@@ -37,7 +38,7 @@ void image_row(const struct image *image, const struct image_channel *channel,
                                : NULL;
     for (int x = 0; x < image->width; x++) {
         bool held = inside && x >= image->x0 && x < image->x1;
-        out[(size_t)x * step] =
-            held ? from[(x - image->x0) * channel->stride] : 0;
+        out[(size_t)x * step] = held ? from[(x - image->x0) * channel->stride]
+                                     : 0;
     }
 }

@@ -15,8 +15,8 @@ bool memory_multiply(size_t a, size_t b, size_t *product)
 
 static void *fail(size_t count, size_t size, struct brume_error *err)
 {
-    brume_fail(err, BRUME_ERR_MEMORY,
-               "no memory for %zu items of %zu bytes", count, size);
+    brume_fail(err, BRUME_ERR_MEMORY, "no memory for %zu items of %zu bytes",
+               count, size);
     return NULL;
 }
 

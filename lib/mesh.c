@@ -24,19 +24,20 @@ void mesh_free(struct mesh *m)
 
 /* Room for one item more: the array, perhaps moved; NULL with err set. The
  * last index is MESH_NONE, so it names nothing. */
-static void *one_more(void *array, size_t *capacity, size_t count,
-                      size_t size, struct brume_error *err)
+static void *one_more(void *array, size_t *capacity, size_t count, size_t size,
+                      struct brume_error *err)
 {
     if (count >= MESH_NONE) {
-        brume_fail(err, BRUME_ERR_LIMIT, "a mesh has more than %u vertices "
-                   "or triangles", MESH_NONE);
+        brume_fail(err, BRUME_ERR_LIMIT,
+                   "a mesh has more than %u vertices "
+                   "or triangles",
+                   MESH_NONE);
         return NULL;
     }
     return memory_grow(array, capacity, count + 1, size, err);
 }
 
-bool mesh_add_vertex(struct mesh *m, const double p[3],
-                     struct brume_error *err)
+bool mesh_add_vertex(struct mesh *m, const double p[3], struct brume_error *err)
 {
     void *array = one_more(m->position, &m->vertex_capacity, m->vertices,
                            sizeof *m->position, err);
@@ -47,8 +48,7 @@ bool mesh_add_vertex(struct mesh *m, const double p[3],
     return true;
 }
 
-bool mesh_add_normal(struct mesh *m, const float n[3],
-                     struct brume_error *err)
+bool mesh_add_normal(struct mesh *m, const float n[3], struct brume_error *err)
 {
     void *array = one_more(m->normal, &m->normal_capacity, m->normals,
                            sizeof *m->normal, err);
@@ -61,8 +61,7 @@ bool mesh_add_normal(struct mesh *m, const float n[3],
 
 bool mesh_add_uv(struct mesh *m, const float uv[2], struct brume_error *err)
 {
-    void *array = one_more(m->uv, &m->uv_capacity, m->uvs, sizeof *m->uv,
-                           err);
+    void *array = one_more(m->uv, &m->uv_capacity, m->uvs, sizeof *m->uv, err);
     if (!array)
         return false;
     m->uv = array;
@@ -72,7 +71,7 @@ bool mesh_add_uv(struct mesh *m, const float uv[2], struct brume_error *err)
 
 typedef uint32_t (*corners)[3];
 
-static const uint32_t no_corners[3] = { MESH_NONE, MESH_NONE, MESH_NONE };
+static const uint32_t no_corners[3] = {MESH_NONE, MESH_NONE, MESH_NONE};
 
 /* One of the optional arrays beside `corner`, which has a capacity in common
  * with it: made, with MESH_NONE for the triangles so far, when it is needed
@@ -84,8 +83,8 @@ static bool fit_optional(corners *array, bool needed, size_t count,
     if (first && !needed)
         return true;
     size_t old_capacity = 0;
-    corners grown = memory_grow(*array, &old_capacity, capacity,
-                                sizeof *grown, err);
+    corners grown = memory_grow(*array, &old_capacity, capacity, sizeof *grown,
+                                err);
     if (!grown)
         return false;
     *array = grown;
@@ -159,7 +158,8 @@ static bool check_corner(size_t triangle, const char *what, uint32_t index,
     return index < count ||
            brume_fail(err, BRUME_ERR_SCENE,
                       "triangle %zu of a mesh names %s %u; the mesh has %zu, "
-                      "counted from 0", triangle, what, index, count);
+                      "counted from 0",
+                      triangle, what, index, count);
 }
 
 static bool check_triangle(const struct mesh *m, size_t t,
@@ -169,8 +169,7 @@ static bool check_triangle(const struct mesh *m, size_t t,
         if (!check_corner(t, "vertex", m->corner[t][c], m->vertices, err))
             return false;
         if (m->corner_normal && m->corner_normal[t][0] != MESH_NONE &&
-            !check_corner(t, "normal", m->corner_normal[t][c], m->normals,
-                          err))
+            !check_corner(t, "normal", m->corner_normal[t][c], m->normals, err))
             return false;
         if (m->corner_uv && m->corner_uv[t][0] != MESH_NONE &&
             !check_corner(t, "uv", m->corner_uv[t][c], m->uvs, err))
@@ -186,7 +185,8 @@ bool mesh_check(const struct mesh *m, struct brume_error *err)
             if (!isfinite(m->position[v][i]))
                 return brume_fail(err, BRUME_ERR_SCENE,
                                   "vertex %zu of a mesh has a coordinate "
-                                  "that is not finite", v);
+                                  "that is not finite",
+                                  v);
     for (size_t t = 0; t < m->triangles; t++)
         if (!check_triangle(m, t, err))
             return false;
@@ -195,8 +195,8 @@ bool mesh_check(const struct mesh *m, struct brume_error *err)
 
 /* A copy of `count` items; NULL stays NULL. *good turns false where there is
  * no memory. */
-static void *copy_items(const void *from, size_t count, size_t size,
-                        bool *good, struct brume_error *err)
+static void *copy_items(const void *from, size_t count, size_t size, bool *good,
+                        struct brume_error *err)
 {
     if (!from)
         return NULL;
@@ -215,7 +215,7 @@ struct mesh *mesh_copy(const struct mesh *m, struct brume_error *err)
     if (!out)
         return NULL;
     *out = *m;
-#define COPY(array, count)                                                    \
+#define COPY(array, count)                                                     \
     out->array = copy_items(m->array, m->count, sizeof *m->array, &good, err)
     COPY(position, vertices);
     COPY(normal, normals);

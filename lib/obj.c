@@ -7,7 +7,7 @@
 enum { VERTEX, UV, NORMAL, KINDS };
 
 struct corner {
-    uint32_t index[KINDS];          /* MESH_NONE where there is none       */
+    uint32_t index[KINDS]; /* MESH_NONE where there is none       */
 };
 
 struct obj {
@@ -38,8 +38,8 @@ static bool read_numbers(struct obj *o, const char *what, double *to,
             if (!scan_number(&o->scan, &to[i]))
                 return false;
         } else if (i < needed) {
-            return scan_fail(&o->scan, "%s of %d numbers; it has %d", what,
-                             i, needed);
+            return scan_fail(&o->scan, "%s of %d numbers; it has %d", what, i,
+                             needed);
         }
     }
     return true;
@@ -52,8 +52,7 @@ static bool read_vertex(struct obj *o)
         return false;
     for (int i = 0; i < 3; i++)
         if (!isfinite(p[i]))
-            return scan_fail(&o->scan, "a vertex has the coordinate %g",
-                             p[i]);
+            return scan_fail(&o->scan, "a vertex has the coordinate %g", p[i]);
     return mesh_add_vertex(o->mesh, p, o->err);
 }
 
@@ -62,7 +61,7 @@ static bool read_uv(struct obj *o)
     double p[2];
     if (!read_numbers(o, "a texture coordinate", p, 1, 2))
         return false;
-    float uv[2] = { (float)p[0], (float)p[1] };
+    float uv[2] = {(float)p[0], (float)p[1]};
     return mesh_add_uv(o->mesh, uv, o->err);
 }
 
@@ -71,7 +70,7 @@ static bool read_normal(struct obj *o)
     double p[3];
     if (!read_numbers(o, "a normal", p, 3, 3))
         return false;
-    float n[3] = { (float)p[0], (float)p[1], (float)p[2] };
+    float n[3] = {(float)p[0], (float)p[1], (float)p[2]};
     return mesh_add_normal(o->mesh, n, o->err);
 }
 
@@ -85,8 +84,10 @@ static bool read_index(struct obj *o, const char *text, const char *what,
                          what);
     double at = value < 0 ? (double)count + value : value - 1;
     if (!(at >= 0 && at < (double)count))
-        return scan_fail(&o->scan, "a face names %s %.0f; there are %zu so "
-                         "far", what, value, count);
+        return scan_fail(&o->scan,
+                         "a face names %s %.0f; there are %zu so "
+                         "far",
+                         what, value, count);
     *index = (uint32_t)at;
     return true;
 }
@@ -94,10 +95,9 @@ static bool read_index(struct obj *o, const char *text, const char *what,
 /* A word of a face: v, v/vt, v//vn or v/vt/vn. */
 static bool read_corner(struct obj *o, struct corner *corner)
 {
-    static const char *const what[] = { "vertex", "texture coordinate",
-                                        "normal" };
-    const size_t count[] = { o->mesh->vertices, o->mesh->uvs,
-                             o->mesh->normals };
+    static const char *const what[] = {"vertex", "texture coordinate",
+                                       "normal"};
+    const size_t count[] = {o->mesh->vertices, o->mesh->uvs, o->mesh->normals};
     char text[SCAN_WORD], *part = text;
     snprintf(text, sizeof text, "%s", o->scan.word);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -108,8 +108,7 @@ static bool read_corner(struct obj *o, struct corner *corner)
         if (end)
             *end = '\0';
         if ((*part || kind == VERTEX) &&
-            !read_index(o, part, what[kind], count[kind],
-                        &corner->index[kind]))
+            !read_index(o, part, what[kind], count[kind], &corner->index[kind]))
             return false;
         part = end ? end + 1 : NULL;
     }
@@ -119,7 +118,7 @@ static bool read_corner(struct obj *o, struct corner *corner)
 static bool add_triangle(struct obj *o, const struct corner corner[3])
 {
     uint32_t index[KINDS][3];
-    bool whole[KINDS] = { true, true, true };
+    bool whole[KINDS] = {true, true, true};
     for (int kind = 0; kind < KINDS; kind++)
         for (int c = 0; c < 3; c++) {
             index[kind][c] = corner[c].index[kind];
@@ -178,7 +177,7 @@ static bool load(struct obj *o, const char *path)
 
 struct mesh *obj_load(const char *path, struct brume_error *err)
 {
-    struct obj o = { .err = err };
+    struct obj o = {.err = err};
     bool ok = load(&o, path);
     scan_close(&o.scan);
     if (ok)

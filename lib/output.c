@@ -10,15 +10,14 @@
 
 struct output {
     FILE *stream;
-    char *path;         /* as the caller names it                         */
-    char *target;       /* where links lead                               */
-    char *temporary;    /* NULL when the target is written in place       */
+    char *path;      /* as the caller names it                         */
+    char *target;    /* where links lead                               */
+    char *temporary; /* NULL when the target is written in place       */
 };
 
 static bool fail(const char *path, int reason, struct brume_error *err)
 {
-    return brume_fail_file(err, path, "can't be written: %s",
-                           strerror(reason));
+    return brume_fail_file(err, path, "can't be written: %s", strerror(reason));
 }
 
 static void release(struct output *o)

@@ -9,20 +9,29 @@ enum { MAX_ELEMENTS = 32, MAX_PROPERTIES = 64 };
 
 enum format { ASCII, LITTLE, BIG };
 
-enum type { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64,
-            NO_TYPE };
+enum type {
+    INT8,
+    UINT8,
+    INT16,
+    UINT16,
+    INT32,
+    UINT32,
+    FLOAT32,
+    FLOAT64,
+    NO_TYPE
+};
 
 /* What a property is to us: an index of a vertex's values, or a face's list. */
 enum role { X, Y, Z, NX, NY, NZ, U, V, VERTEX_VALUES, CORNERS, SKIPPED };
 
 struct property {
-    enum type type, count_type;     /* count_type: NO_TYPE if no list      */
+    enum type type, count_type; /* count_type: NO_TYPE if no list      */
     enum role role;
 };
 
 struct element {
     char name[32];
-    double count;                   /* as the header says                  */
+    double count; /* as the header says                  */
     int properties;
     struct property property[MAX_PROPERTIES];
 };
@@ -43,9 +52,9 @@ struct ply {
 static enum type type_named(const char *name)
 {
     static const char *const names[][2] = {
-        { "char", "int8" }, { "uchar", "uint8" }, { "short", "int16" },
-        { "ushort", "uint16" }, { "int", "int32" }, { "uint", "uint32" },
-        { "float", "float32" }, { "double", "float64" },
+        {"char", "int8"},     {"uchar", "uint8"},    {"short", "int16"},
+        {"ushort", "uint16"}, {"int", "int32"},      {"uint", "uint32"},
+        {"float", "float32"}, {"double", "float64"},
     };
     for (int i = 0; i < NO_TYPE; i++)
         if (strcmp(name, names[i][0]) == 0 || strcmp(name, names[i][1]) == 0)
@@ -55,11 +64,13 @@ static enum type type_named(const char *name)
 
 static enum role role_named(const char *element, const char *name, bool list)
 {
-    static const struct { const char *name; enum role role; } values[] = {
-        { "x", X }, { "y", Y }, { "z", Z },
-        { "nx", NX }, { "ny", NY }, { "nz", NZ },
-        { "u", U }, { "s", U }, { "texture_u", U },
-        { "v", V }, { "t", V }, { "texture_v", V },
+    static const struct {
+        const char *name;
+        enum role role;
+    } values[] = {
+        {"x", X},         {"y", Y},   {"z", Z}, {"nx", NX},
+        {"ny", NY},       {"nz", NZ}, {"u", U}, {"s", U},
+        {"texture_u", U}, {"v", V},   {"t", V}, {"texture_v", V},
     };
     if (strcmp(element, "face") == 0 && list &&
         (strcmp(name, "vertex_indices") == 0 ||
@@ -125,16 +136,15 @@ static bool read_element(struct ply *p)
     if (!scan_number(s, &e->count))
         return false;
     if (!(e->count >= 0 && e->count < 0x1p53 && floor(e->count) == e->count))
-        return scan_fail(s, "element %s has the count %.40s", e->name,
-                         s->word);
+        return scan_fail(s, "element %s has the count %.40s", e->name, s->word);
     return true;
 }
 
 /* "format NAME 1.0" */
 static bool read_format(struct ply *p)
 {
-    static const char *const names[] = { "ascii", "binary_little_endian",
-                                         "binary_big_endian" };
+    static const char *const names[] = {"ascii", "binary_little_endian",
+                                        "binary_big_endian"};
     struct scan *s = &p->scan;
     if (scan_word(s))
         for (int i = ASCII; i <= BIG; i++)
@@ -145,8 +155,7 @@ static bool read_format(struct ply *p)
     return scan_fail(s, "unknown format '%.40s'", s->word);
 }
 
-static const struct element *find_element(const struct ply *p,
-                                          const char *name)
+static const struct element *find_element(const struct ply *p, const char *name)
 {
     for (int i = 0; i < p->elements; i++)
         if (strcmp(p->element[i].name, name) == 0)
@@ -191,7 +200,7 @@ static bool read_header(struct ply *p)
             continue;
         bool ok = true;
         if (strcmp(s->word, "end_header") == 0) {
-            while (scan_word(s))    /* to the end of the line              */
+            while (scan_word(s)) /* to the end of the line              */
                 ;
             return formatted ? check_header(p)
                              : scan_fail(s, "no format was given");
@@ -219,12 +228,18 @@ static double decode(uint64_t bits, enum type type)
     float single;
     double full;
     switch (type) {
-    case INT8:   return (int8_t)bits;
-    case UINT8:  return (uint8_t)bits;
-    case INT16:  return (int16_t)bits;
-    case UINT16: return (uint16_t)bits;
-    case INT32:  return (int32_t)bits;
-    case UINT32: return low;
+    case INT8:
+        return (int8_t)bits;
+    case UINT8:
+        return (uint8_t)bits;
+    case INT16:
+        return (int16_t)bits;
+    case UINT16:
+        return (uint16_t)bits;
+    case INT32:
+        return (int32_t)bits;
+    case UINT32:
+        return low;
     case FLOAT32:
         memcpy(&single, &low, sizeof single);
         return single;
@@ -236,7 +251,7 @@ static double decode(uint64_t bits, enum type type)
 
 static bool read_binary(struct ply *p, enum type type, double *value)
 {
-    static const int sizes[] = { 1, 1, 2, 2, 4, 4, 4, 8 };
+    static const int sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
     uint64_t bits = 0;
     for (int i = 0; i < sizes[type]; i++) {
         int c = getc_unlocked(p->scan.stream);
@@ -257,7 +272,8 @@ static bool read_value(struct ply *p, enum type type, double *value)
     if (p->format != ASCII)
         return read_binary(p, type, value);
     if (!scan_any_word(&p->scan))
-        return scan_fail(&p->scan, "the file ends too early: its header "
+        return scan_fail(&p->scan,
+                         "the file ends too early: its header "
                          "promises %.0f vertices and %.0f faces",
                          p->vertex->count, p->face->count);
     return scan_number(&p->scan, value);
@@ -270,8 +286,8 @@ static bool fail_item(struct ply *p, const char *what, double item,
     if (p->format == ASCII)
         return scan_fail(&p->scan, "%s %.0f %s %.15g", what, item, wrong,
                          value);
-    return brume_fail_file(p->err, p->scan.path, "%s %.0f %s %.15g", what,
-                           item, wrong, value);
+    return brume_fail_file(p->err, p->scan.path, "%s %.0f %s %.15g", what, item,
+                           wrong, value);
 }
 
 static bool read_corner(struct ply *p, double face, enum type type,
@@ -290,13 +306,12 @@ static bool read_corner(struct ply *p, double face, enum type type,
 static bool read_polygon(struct ply *p, double face, enum type type,
                          double corners)
 {
-    uint32_t t[3] = { 0, 0, 0 };
+    uint32_t t[3] = {0, 0, 0};
     for (double i = 0; i < corners; i++) {
         if (!read_corner(p, face, type, i == 0 ? &t[0] : &t[2]))
             return false;
-        if (i >= 2 &&
-            !mesh_add_triangle(p->mesh, t, p->has_normal ? t : NULL,
-                               p->has_uv ? t : NULL, p->err))
+        if (i >= 2 && !mesh_add_triangle(p->mesh, t, p->has_normal ? t : NULL,
+                                         p->has_uv ? t : NULL, p->err))
             return false;
         t[1] = t[2];
     }
@@ -323,27 +338,26 @@ static bool add_vertex(struct ply *p, double item,
 {
     for (int i = X; i <= Z; i++)
         if (!isfinite(value[i]))
-            return fail_item(p, "vertex", item, "has the coordinate",
-                             value[i]);
+            return fail_item(p, "vertex", item, "has the coordinate", value[i]);
     if (!mesh_add_vertex(p->mesh, value, p->err))
         return false;
-    float normal[3] = { (float)value[NX], (float)value[NY],
-                        (float)value[NZ] };
-    float uv[2] = { (float)value[U], (float)value[V] };
+    float normal[3] = {(float)value[NX], (float)value[NY], (float)value[NZ]};
+    float uv[2] = {(float)value[U], (float)value[V]};
     return (!p->has_normal || mesh_add_normal(p->mesh, normal, p->err)) &&
            (!p->has_uv || mesh_add_uv(p->mesh, uv, p->err));
 }
 
 static bool read_item(struct ply *p, const struct element *e, double item)
 {
-    double value[VERTEX_VALUES] = { 0 }, unused;
+    double value[VERTEX_VALUES] = {0}, unused;
     for (int i = 0; i < e->properties; i++) {
         const struct property *from = &e->property[i];
         bool ok = from->count_type != NO_TYPE
                       ? read_list(p, item, from)
                       : read_value(p, from->type,
                                    from->role < VERTEX_VALUES
-                                       ? &value[from->role] : &unused);
+                                       ? &value[from->role]
+                                       : &unused);
         if (!ok)
             return false;
     }

@@ -69,14 +69,13 @@ static bool write_picture(png_structp png, png_infop info, FILE *stream,
     return true;
 }
 
-bool png_save_stream(FILE *stream, const char *name,
-                     const struct image *image, int bits, bool alpha,
-                     struct brume_error *err)
+bool png_save_stream(FILE *stream, const char *name, const struct image *image,
+                     int bits, bool alpha, struct brume_error *err)
 {
     struct codes codes;
     bool ok = codes_init(&codes, image, bits, alpha, err);
     if (ok) {
-        struct session s = { name, err };
+        struct session s = {name, err};
         png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &s,
                                                   on_error, on_warning);
         png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -88,12 +87,14 @@ bool png_save_stream(FILE *stream, const char *name,
     return ok;
 }
 
-bool png_save(const char *path, const struct image *image, int bits,
-              bool alpha, struct brume_error *err)
+bool png_save(const char *path, const struct image *image, int bits, bool alpha,
+              struct brume_error *err)
 {
     struct output *o = output_open(path, err);
-    return o && output_close(o, png_save_stream(output_stream(o), path, image,
-                                                bits, alpha, err), err);
+    return o && output_close(o,
+                             png_save_stream(output_stream(o), path, image,
+                                             bits, alpha, err),
+                             err);
 }
 
 /* ---- reading ---- */
@@ -102,8 +103,8 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t size)
 {
     FILE *stream = png_get_io_ptr(png);
     if (fread(bytes, 1, size, stream) != size)
-        png_error(png, ferror(stream) ? strerror(errno)
-                                      : "the file ends too early");
+        png_error(png,
+                  ferror(stream) ? strerror(errno) : "the file ends too early");
 }
 
 static bool read_info(png_structp png, png_infop info, FILE *stream,
@@ -143,23 +144,22 @@ static void widen(struct png_picture *picture, const unsigned char *bytes)
     size_t samples = (size_t)picture->width * (size_t)picture->height *
                      (size_t)picture->channels;
     for (size_t i = 0; i < samples; i++)
-        picture->sample[i] =
-            picture->bits == 16
-                ? (uint16_t)(bytes[2 * i] << 8 | bytes[2 * i + 1])
-                : bytes[i];
+        picture->sample[i] = picture->bits == 16
+                                 ? (uint16_t)(bytes[2 * i] << 8 |
+                                              bytes[2 * i + 1])
+                                 : bytes[i];
 }
 
 static bool read_picture(png_structp png, png_infop info,
-                         struct png_picture *picture,
-                         struct brume_error *err)
+                         struct png_picture *picture, struct brume_error *err)
 {
     size_t height = (size_t)picture->height;
     size_t row = png_get_rowbytes(png, info);
     unsigned char *bytes = memory_new(height, row, err);
     png_bytepp rows = memory_new(height, sizeof *rows, err);
-    picture->sample = memory_new((size_t)picture->width * height,
-                                 (size_t)picture->channels *
-                                     sizeof *picture->sample, err);
+    picture->sample = memory_new(
+        (size_t)picture->width * height,
+        (size_t)picture->channels * sizeof *picture->sample, err);
     bool ok = bytes && rows && picture->sample;
     for (size_t y = 0; ok && y < height; y++)
         rows[y] = bytes + y * row;
@@ -173,20 +173,20 @@ static bool read_picture(png_structp png, png_infop info,
 
 static bool load(FILE *stream, struct session *s, struct png_picture *picture)
 {
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, s,
-                                             on_error, on_warning);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, s, on_error,
+                                             on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    bool ok = info ? read_info(png, info, stream, picture) &&
-                         read_picture(png, info, picture, s->err)
-                   : brume_fail(s->err, BRUME_ERR_MEMORY,
-                                "no memory for a PNG");
+    bool ok = info
+                  ? read_info(png, info, stream, picture) &&
+                        read_picture(png, info, picture, s->err)
+                  : brume_fail(s->err, BRUME_ERR_MEMORY, "no memory for a PNG");
     png_destroy_read_struct(&png, &info, NULL);
     return ok;
 }
 
 struct png_picture *png_load(const char *path, struct brume_error *err)
 {
-    struct session s = { path, err };
+    struct session s = {path, err};
     FILE *stream = fopen(path, "rb");
     if (!stream) {
         brume_fail_file(err, path, "%s", strerror(errno));

@@ -57,7 +57,7 @@ static double rate_of(const struct progress_report *r, double elapsed)
 static void format_rate(const struct progress_report *r, double elapsed,
                         char *text, size_t size)
 {
-    static const char *const scales[] = { "", " k", " M", " G", " T" };
+    static const char *const scales[] = {"", " k", " M", " G", " T"};
     double rate = rate_of(r, elapsed);
     int scale = 0;
     text[0] = '\0';
@@ -68,8 +68,8 @@ static void format_rate(const struct progress_report *r, double elapsed,
     snprintf(text, size, ", %.3g%s %s/s", rate, scales[scale], r->unit);
 }
 
-int progress_line(const struct progress_report *r, double elapsed,
-                  char *text, unsigned long size)
+int progress_line(const struct progress_report *r, double elapsed, char *text,
+                  unsigned long size)
 {
     char passed[CLOCK], left[CLOCK], rate[TEXT];
     double fraction = clip(r->fraction);
@@ -80,8 +80,8 @@ int progress_line(const struct progress_report *r, double elapsed,
                     (int)(100 * fraction), passed, left, rate);
 }
 
-int progress_json(const struct progress_report *r, double elapsed,
-                  char *text, unsigned long size)
+int progress_json(const struct progress_report *r, double elapsed, char *text,
+                  unsigned long size)
 {
     char left[CLOCK] = "null", unit[TEXT] = "";
     double fraction = clip(r->fraction);
@@ -92,9 +92,10 @@ int progress_json(const struct progress_report *r, double elapsed,
     if (rate > 0)
         snprintf(unit, sizeof unit, ",\"rate\":%.6g,\"unit\":\"%s\"", rate,
                  r->unit);
-    return snprintf(text, size, "{\"stage\":\"%s\",\"fraction\":%.6f,"
-                    "\"elapsed_s\":%.3f,\"left_s\":%s%s}\n", r->stage,
-                    fraction, elapsed, left, unit);
+    return snprintf(text, size,
+                    "{\"stage\":\"%s\",\"fraction\":%.6f,"
+                    "\"elapsed_s\":%.3f,\"left_s\":%s%s}\n",
+                    r->stage, fraction, elapsed, left, unit);
 }
 
 static void show(struct progress *p, const struct progress_report *r,
@@ -119,8 +120,7 @@ void progress_update(struct progress *p, const struct progress_report *r)
     if (p->mode == PROGRESS_OFF)
         return;
     double now = timer_seconds();
-    double interval = p->mode == PROGRESS_JSON ? json_interval
-                                               : line_interval;
+    double interval = p->mode == PROGRESS_JSON ? json_interval : line_interval;
     bool fresh = strncmp(p->stage, r->stage, sizeof p->stage - 1) != 0;
     if (fresh) {
         snprintf(p->stage, sizeof p->stage, "%s", r->stage);

@@ -13,13 +13,11 @@ bool scan_open(struct scan *s, const char *path, struct brume_error *err)
     s->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     s->stream = s->locale ? fopen(path, "rb") : NULL;
     if (!s->stream)
-        return brume_fail_file(err, path, "can't be read: %s",
-                               strerror(errno));
+        return brume_fail_file(err, path, "can't be read: %s", strerror(errno));
     /* A folder can be opened, but not read. */
     int c = getc(s->stream);
     if (c == EOF && ferror(s->stream))
-        return brume_fail_file(err, path, "can't be read: %s",
-                               strerror(errno));
+        return brume_fail_file(err, path, "can't be read: %s", strerror(errno));
     ungetc(c, s->stream);
     return true;
 }
@@ -61,8 +59,7 @@ bool scan_word(struct scan *s)
         c = getc_unlocked(s->stream);
     if (s->line_ended)
         return false;
-    for (; c != '\n' && c != EOF && !is_blank(c);
-         c = getc_unlocked(s->stream))
+    for (; c != '\n' && c != EOF && !is_blank(c); c = getc_unlocked(s->stream))
         if (length < sizeof s->word - 1)
             s->word[length++] = (char)c;
     s->word[length] = '\0';

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 struct loop {
-    atomic_size_t next;         /* the index that nobody has taken yet    */
+    atomic_size_t next; /* the index that nobody has taken yet    */
     size_t count;
     parallel_body *body;
     void *context;
@@ -28,7 +28,8 @@ int thread_processors(void)
             break;
         size_t size = CPU_ALLOC_SIZE(bits);
         int count = sched_getaffinity(0, size, set) == 0
-                        ? CPU_COUNT_S(size, set) : 0;
+                        ? CPU_COUNT_S(size, set)
+                        : 0;
         CPU_FREE(set);
         if (count > 0)
             return count;
@@ -55,17 +56,17 @@ static void *work(void *argument)
     return NULL;
 }
 
-bool parallel_for(int threads, size_t count, parallel_body *body,
-                  void *context, const atomic_bool *cancel)
+bool parallel_for(int threads, size_t count, parallel_body *body, void *context,
+                  const atomic_bool *cancel)
 {
     if (threads <= 0)
         threads = thread_processors();
     if ((size_t)threads > count)
         threads = count > 0 ? (int)count : 1;
-    struct loop loop = { .count = count, .body = body, .context = context,
-                         .cancel = cancel };
+    struct loop loop = {
+        .count = count, .body = body, .context = context, .cancel = cancel};
     atomic_init(&loop.next, 0);
-    struct worker caller = { .loop = &loop, .number = 0 };
+    struct worker caller = {.loop = &loop, .number = 0};
     struct worker *others = calloc((size_t)threads, sizeof *others);
     int started = 0;
     while (others && started < threads - 1) {

@@ -13,7 +13,8 @@
 #include "lib/output.h"
 #include "lib/vdb_file.h"
 
-namespace {
+namespace
+{
 
 using openvdb::Coord;
 using openvdb::CoordBBox;
@@ -47,16 +48,24 @@ bool guarded(const char *path, brume_error *err, Work work)
 }
 
 struct grid_deleter {
-    void operator()(grid *g) const { grid_free(g); }
+    void operator()(grid *g) const
+    {
+        grid_free(g);
+    }
 };
 using grid_owner = std::unique_ptr<grid, grid_deleter>;
 
 /* ---- reading ---- */
 
 struct file_owner : vdb_file {
-    file_owner() { std::memset(static_cast<vdb_file *>(this), 0,
-                               sizeof(vdb_file)); }
-    ~file_owner() { vdb_file_close(this); }
+    file_owner()
+    {
+        std::memset(static_cast<vdb_file *>(this), 0, sizeof(vdb_file));
+    }
+    ~file_owner()
+    {
+        vdb_file_close(this);
+    }
 };
 
 /* The first grid of that name. */
@@ -80,21 +89,25 @@ const vdb_record *tree_of(const vdb_file &file, const vdb_record &r)
     return nullptr;
 }
 
-bool check_record(const vdb_file &file, const vdb_record &r,
-                  brume_error *err)
+bool check_record(const vdb_file &file, const vdb_record &r, brume_error *err)
 {
     const vdb_entry &e = r.entry;
     if (e.kind == VDB_LEVEL_SET)
-        return brume_fail_file(err, file.path, "grid '%s' is a level set, a "
+        return brume_fail_file(err, file.path,
+                               "grid '%s' is a level set, a "
                                "surface: convert it to a fog volume (Houdini:"
                                " VDB Convert, SDF to Fog; OpenVDB: "
-                               "sdfToFogVolume)", e.name);
+                               "sdfToFogVolume)",
+                               e.name);
     if (!e.scalar)
-        return brume_fail_file(err, file.path, "grid '%s' is of type %s (%s);"
+        return brume_fail_file(err, file.path,
+                               "grid '%s' is of type %s (%s);"
                                " a scalar grid is needed: float, double, "
-                               "int32, int64 or bool", e.name, e.type, r.tree);
+                               "int32, int64 or bool",
+                               e.name, e.type, r.tree);
     if (!std::strcmp(r.map, "NonlinearFrustumMap"))
-        return brume_fail_file(err, file.path, "grid '%s' is in the frustum "
+        return brume_fail_file(err, file.path,
+                               "grid '%s' is in the frustum "
                                "of a camera: resample it to a plain grid",
                                e.name);
     return true;
@@ -106,8 +119,9 @@ vdb_layout layout_of(const vdb_record &r)
     vdb_layout layout = {};
     layout.compression = r.compression;
     layout.bits = type == "bool";
-    layout.value = layout.bits ? 1
-                   : type == "double" || type == "int64" ? 8 : 4;
+    layout.value = layout.bits                           ? 1
+                   : type == "double" || type == "int64" ? 8
+                                                         : 4;
     bool real = type == "float" || type == "double";
     layout.stored = real && r.entry.half ? 2 : layout.value;
     return layout;
@@ -115,10 +129,11 @@ vdb_layout layout_of(const vdb_record &r)
 
 /* A stream on the file that throws at its end and knows what OpenVDB asks of
  * the streams it reads: the versions, the compression, that it can seek. */
-class source {
+class source
+{
     openvdb::io::StreamMetadata::Ptr state;
 
-public:
+  public:
     std::ifstream stream;
 
     source(const vdb_file &file, const vdb_record &r)
@@ -163,13 +178,15 @@ bool copy_transform(const openvdb::GridBase &from, grid &to,
         for (int j = 0; j < 4; j++) {
             to.to_world[i][j] = m(j, i);
             if (!std::isfinite(to.to_world[i][j]))
-                return brume_fail_file(err, file.path, "grid '%s' has a "
+                return brume_fail_file(err, file.path,
+                                       "grid '%s' has a "
                                        "transform that is not finite",
                                        to.name);
         }
-    return m.det() != 0 ||
-           brume_fail_file(err, file.path, "grid '%s' has a transform that "
-                           "flattens it", to.name);
+    return m.det() != 0 || brume_fail_file(err, file.path,
+                                           "grid '%s' has a transform that "
+                                           "flattens it",
+                                           to.name);
 }
 
 int32_t brick_floor(int32_t x)
@@ -178,10 +195,10 @@ int32_t brick_floor(int32_t x)
 }
 
 /* An empty grid that covers the box, or one brick of background. */
-grid *make_grid(const CoordBBox &active, float background,
-                const vdb_file &file, const vdb_record &r, brume_error *err)
+grid *make_grid(const CoordBBox &active, float background, const vdb_file &file,
+                const vdb_record &r, brume_error *err)
 {
-    int32_t origin[3] = { 0, 0, 0 }, bricks[3] = { 1, 1, 1 };
+    int32_t origin[3] = {0, 0, 0}, bricks[3] = {1, 1, 1};
     for (int i = 0; i < 3 && !active.empty(); i++) {
         origin[i] = brick_floor(active.min()[i]);
         int64_t last = brick_floor(active.max()[i]);
@@ -268,13 +285,13 @@ grid *convert(const openvdb::GridBase &base, const vdb_file &file,
     const auto &tree = static_cast<const Grid &>(base).tree();
     CoordBBox active;
     tree.evalActiveVoxelBoundingBox(active);
-    grid_owner g(make_grid(active, static_cast<float>(tree.background()),
-                           file, r, err));
+    grid_owner g(
+        make_grid(active, static_cast<float>(tree.background()), file, r, err));
     if (!g)
         return nullptr;
     std::snprintf(g->name, sizeof g->name, "%s", r.entry.name);
-    if (!copy_transform(base, *g, file, err) ||
-        !copy_tiles(tree, *g, err) || !copy_leaves(tree, *g, err))
+    if (!copy_transform(base, *g, file, err) || !copy_tiles(tree, *g, err) ||
+        !copy_leaves(tree, *g, err))
         return nullptr;
     grid_finish(g.get());
     return g.release();
@@ -298,14 +315,15 @@ grid *load(vdb_file &file, const std::string &name, brume_error *err)
 {
     const vdb_record *r = find(file, name);
     if (!r) {
-        brume_fail_file(err, file.path, "has no grid named '%s'",
-                        name.c_str());
+        brume_fail_file(err, file.path, "has no grid named '%s'", name.c_str());
         return nullptr;
     }
     const vdb_record *owner = tree_of(file, *r);
     if (!owner) {
-        brume_fail_file(err, file.path, "grid '%s' shares the tree of a grid "
-                        "that is not there", name.c_str());
+        brume_fail_file(err, file.path,
+                        "grid '%s' shares the tree of a grid "
+                        "that is not there",
+                        name.c_str());
         return nullptr;
     }
     if (!check_record(file, *r, err) || !check_record(file, *owner, err))
@@ -360,8 +378,9 @@ void fill_tree(openvdb::FloatTree &tree, const grid &g)
                                g.origin[1] + y * GRID_BRICK,
                                g.origin[2] + z * GRID_BRICK);
                 if (*slot >= 0)
-                    fill_leaf(tree, g, at, g.voxel +
-                              static_cast<size_t>(*slot) * GRID_BRICK_VOXELS);
+                    fill_leaf(tree, g, at,
+                              g.voxel + static_cast<size_t>(*slot) *
+                                            GRID_BRICK_VOXELS);
                 else if (*slot != -1)
                     tree.addTile(1, at, g.tile[-1 - *slot], true);
             }
@@ -390,8 +409,8 @@ grid *vdb_load(const char *path, const char *name, vdb_role role,
     grid *result = nullptr;
     brume_error own = {};
     guarded(path, &own, [&] {
-        const std::string wanted =
-            name && *name ? name : name_for(path, role, &own);
+        const std::string wanted = name && *name ? name
+                                                 : name_for(path, role, &own);
         file_owner file;
         if (own.code == BRUME_OK && vdb_file_open(&file, path, &own))
             result = load(file, wanted, &own);

@@ -5,9 +5,10 @@
 #include "lib/memory.h"
 
 enum {
-    OLDEST = 222, NEWEST = 225,     /* file formats                        */
+    OLDEST = 222,
+    NEWEST = 225, /* file formats                        */
     MAX_GRIDS = 4096,
-    MAX_ITEMS = 65536,              /* of metadata                         */
+    MAX_ITEMS = 65536, /* of metadata                         */
     MAP_NAME = 64
 };
 
@@ -17,7 +18,8 @@ static bool broken(const struct vdb_file *f, const char *what)
 {
     return brume_fail_file(f->err, f->path,
                            "%s near byte %llu: the file is damaged or cut "
-                           "off", what, (unsigned long long)f->at);
+                           "off",
+                           what, (unsigned long long)f->at);
 }
 
 static bool get(struct vdb_file *f, void *to, size_t size)
@@ -93,7 +95,8 @@ static bool read_header(struct vdb_file *f, bool *offsets)
         return brume_fail_file(f->err, f->path,
                                "has VDB format %u; formats %d to %d can be "
                                "read (OpenVDB 2 to 13): save it again with "
-                               "such a version", f->version, OLDEST, NEWEST);
+                               "such a version",
+                               f->version, OLDEST, NEWEST);
     if (!get_u32(f, &f->library[0]) || !get_u32(f, &f->library[1]) ||
         !get(f, &flag, 1) || !get(f, identifier, sizeof identifier))
         return false;
@@ -103,8 +106,8 @@ static bool read_header(struct vdb_file *f, bool *offsets)
 
 static enum vdb_class class_of(const char *name)
 {
-    static const char *const names[] = { "unknown", "level set",
-                                         "fog volume", "staggered" };
+    static const char *const names[] = {"unknown", "level set", "fog volume",
+                                        "staggered"};
     for (int i = VDB_LEVEL_SET; i <= VDB_STAGGERED; i++)
         if (strcmp(name, names[i]) == 0)
             return (enum vdb_class)i;
@@ -157,11 +160,11 @@ static void show_name(struct vdb_entry *e, const char *unique)
     const char *number = strchr(unique, SEPARATOR);
     if (number)
         snprintf(e->name, sizeof e->name, "%.*s[%.8s]",
-                 number - unique < ROOM ? (int)(number - unique) : ROOM,
-                 unique, number + 1);
+                 number - unique < ROOM ? (int)(number - unique) : ROOM, unique,
+                 number + 1);
     else
-        snprintf(e->name, sizeof e->name, "%.*s",
-                 (int)(sizeof e->name - 1), unique);
+        snprintf(e->name, sizeof e->name, "%.*s", (int)(sizeof e->name - 1),
+                 unique);
 }
 
 bool vdb_file_named(const struct vdb_entry *e, const char *name)
@@ -175,15 +178,16 @@ bool vdb_file_named(const struct vdb_entry *e, const char *name)
 static void split_type(struct vdb_record *r)
 {
     static const char half[] = "_HalfFloat", prefix[] = "Tree_";
-    static const char *const scalars[] = { "float", "double", "int32",
-                                           "int64", "bool" };
+    static const char *const scalars[] = {"float", "double", "int32", "int64",
+                                          "bool"};
     struct vdb_entry *e = &r->entry;
     size_t length = strlen(r->tree), end = strlen(half);
     e->half = length > end && strcmp(r->tree + length - end, half) == 0;
     if (e->half)
         r->tree[length - end] = '\0';
     const char *from = strncmp(r->tree, prefix, strlen(prefix)) == 0
-                           ? r->tree + strlen(prefix) : r->tree;
+                           ? r->tree + strlen(prefix)
+                           : r->tree;
     snprintf(e->type, sizeof e->type, "%.*s", (int)strcspn(from, "_"), from);
     char usual[64];
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
@@ -213,8 +217,8 @@ static bool read_record(struct vdb_file *f, struct vdb_record *r)
     int64_t begin, blocks, end;
     if (!get_string(f, r->unique, sizeof r->unique) ||
         !get_string(f, r->tree, sizeof r->tree) ||
-        !get_string(f, r->parent, sizeof r->parent) ||
-        !get_i64(f, &begin) || !get_i64(f, &blocks) || !get_i64(f, &end))
+        !get_string(f, r->parent, sizeof r->parent) || !get_i64(f, &begin) ||
+        !get_i64(f, &blocks) || !get_i64(f, &end))
         return false;
     if (begin < 0 || end < begin || (uint64_t)end > f->size)
         return broken(f, "has a grid outside of it");
@@ -233,9 +237,8 @@ static bool read_directory(struct vdb_file *f)
     if (count > MAX_GRIDS)
         return broken(f, "has too many grids");
     for (uint32_t i = 0; i < count; i++) {
-        struct vdb_record *list = memory_grow(f->record, &f->capacity,
-                                              f->count + 1, sizeof *list,
-                                              f->err);
+        struct vdb_record *list = memory_grow(
+            f->record, &f->capacity, f->count + 1, sizeof *list, f->err);
         if (!list)
             return false;
         f->record = list;
@@ -254,15 +257,15 @@ bool vdb_file_open(struct vdb_file *f, const char *path,
     f->err = err;
     f->stream = fopen(path, "rb");
     if (!f->stream || fseeko(f->stream, 0, SEEK_END) != 0)
-        return brume_fail_file(err, path, "can't be read: %s",
-                               strerror(errno));
+        return brume_fail_file(err, path, "can't be read: %s", strerror(errno));
     off_t size = ftello(f->stream);
     f->size = size > 0 ? (uint64_t)size : 0;
     bool offsets = false;
     if (!go(f, 0) || !read_header(f, &offsets))
         return false;
     if (!offsets)
-        return brume_fail_file(err, path, "was written as a stream, without "
+        return brume_fail_file(err, path,
+                               "was written as a stream, without "
                                "a directory of its grids: save it as a file");
     return read_metadata(f, NULL) && read_directory(f);
 }
@@ -278,19 +281,25 @@ void vdb_file_close(struct vdb_file *f)
 
 enum { ZIP = 1, ACTIVE_VALUES = 2, BLOSC = 4 };
 
-enum {                      /* what stands before the values of a node     */
-    ONE_INACTIVE = 2, MASK = 3, MASK_ONE = 4, MASK_TWO = 5, ALL_VALUES = 6
+enum { /* what stands before the values of a node     */
+       ONE_INACTIVE = 2,
+       MASK = 3,
+       MASK_ONE = 4,
+       MASK_TWO = 5,
+       ALL_VALUES = 6
 };
 
 enum {
-    UPPER_BYTES = 32768 / 8, LOWER_BYTES = 4096 / 8, LEAF_BYTES = 512 / 8,
-    ROOT_CHILD = 4096       /* samples along a side                        */
+    UPPER_BYTES = 32768 / 8,
+    LOWER_BYTES = 4096 / 8,
+    LEAF_BYTES = 512 / 8,
+    ROOT_CHILD = 4096 /* samples along a side                        */
 };
 
 struct walk {
     struct vdb_file *f;
     const struct vdb_layout *layout;
-    uint16_t *active;       /* of each leaf, in the order of the file      */
+    uint16_t *active; /* of each leaf, in the order of the file      */
     size_t leaves, capacity;
 };
 
@@ -305,7 +314,10 @@ static unsigned ones(const unsigned char *mask, size_t size)
 /* Blosc reads a header of 16 bytes, and then as much as that says. */
 static bool check_blosc(struct vdb_file *f, uint64_t size, uint64_t expected)
 {
-    struct { unsigned char kind[4]; uint32_t bytes, block, packed; } head;
+    struct {
+        unsigned char kind[4];
+        uint32_t bytes, block, packed;
+    } head;
     if (size < sizeof head || !get(f, &head, sizeof head) ||
         head.bytes != expected || head.packed != size)
         return broken(f, "has a Blosc block of the wrong size");
@@ -320,7 +332,7 @@ static bool check_block(struct walk *w, unsigned count)
     uint64_t expected = (uint64_t)count * w->layout->stored;
     uint32_t compression = w->layout->compression;
     if (count == 0 && w->layout->stored != w->layout->value)
-        return true;        /* of no halves, OpenVDB writes no size either */
+        return true; /* of no halves, OpenVDB writes no size either */
     if (!(compression & (ZIP | BLOSC)))
         return skip(f, expected);
     int64_t size;
@@ -340,14 +352,14 @@ static bool check_values(struct walk *w, unsigned total, unsigned active)
     signed char kind;
     if (!get(w->f, &kind, 1))
         return false;
-    unsigned values = kind == MASK_TWO ? 2
-                      : kind == ONE_INACTIVE || kind == MASK_ONE ? 1 : 0;
+    unsigned values = kind == MASK_TWO                           ? 2
+                      : kind == ONE_INACTIVE || kind == MASK_ONE ? 1
+                                                                 : 0;
     if (!skip(w->f, values * w->layout->value))
         return false;
     if (kind >= MASK && kind <= MASK_TWO && !skip(w->f, total / 8))
         return false;
-    bool fewer = w->layout->compression & ACTIVE_VALUES &&
-                 kind != ALL_VALUES;
+    bool fewer = w->layout->compression & ACTIVE_VALUES && kind != ALL_VALUES;
     return check_block(w, fewer ? active : total);
 }
 
@@ -448,9 +460,9 @@ static bool check_buffers(struct walk *w)
     for (size_t i = 0; i < w->leaves; i++) {
         if (!skip(w->f, LEAF_BYTES))
             return false;
-        if (!(w->layout->bits ? skip(w->f, CORNER_BYTES + LEAF_BYTES)
-                              : check_values(w, GRID_BRICK_VOXELS,
-                                             w->active[i])))
+        if (!(w->layout->bits
+                  ? skip(w->f, CORNER_BYTES + LEAF_BYTES)
+                  : check_values(w, GRID_BRICK_VOXELS, w->active[i])))
             return false;
     }
     return true;
@@ -459,7 +471,7 @@ static bool check_buffers(struct walk *w)
 bool vdb_file_check_tree(struct vdb_file *f, uint64_t at,
                          const struct vdb_layout *layout)
 {
-    struct walk w = { .f = f, .layout = layout };
+    struct walk w = {.f = f, .layout = layout};
     bool ok = go(f, at) && check_root(&w) && check_buffers(&w);
     free(w.active);
     return ok;

@@ -34,10 +34,10 @@ void vdb_list_free(struct vdb_list *list)
 static const char *const *names_of(enum vdb_role role)
 {
     static const char *const names[][4] = {
-        { "density", "smoke" },
-        { "temperature", "heat" },
-        { "flame", "flames", "burn" },
-        { "velocity", "vel", "v" },
+        {"density", "smoke"},
+        {"temperature", "heat"},
+        {"flame", "flames", "burn"},
+        {"velocity", "vel", "v"},
     };
     return names[role];
 }
@@ -90,8 +90,8 @@ const struct vdb_entry *vdb_choose(const struct vdb_list *list,
         if (e)
             return e;
     }
-    const struct vdb_entry *only =
-        role == VDB_DENSITY ? find_only_fog(list) : NULL;
+    const struct vdb_entry *only = role == VDB_DENSITY ? find_only_fog(list)
+                                                       : NULL;
     if (only)
         return only;
     char held[640];

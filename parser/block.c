@@ -5,9 +5,9 @@
 
 /* A block that is open at some place of the text. */
 struct open_block {
-    uint32_t opener;        /* its first directive                         */
-    uint32_t last;          /* its latest one                              */
-    uint32_t breaks;        /* opener of the innermost block here that #break
+    uint32_t opener; /* its first directive                         */
+    uint32_t last;   /* its latest one                              */
+    uint32_t breaks; /* opener of the innermost block here that #break
                                leaves; 0: none (token 0 opens as 0 + 1)    */
 };
 
@@ -20,16 +20,16 @@ struct linker {
 
 bool block_opens(int kind)
 {
-    return kind == TOK_HASH_IF || kind == TOK_HASH_IFDEF
-        || kind == TOK_HASH_IFNDEF || kind == TOK_HASH_SWITCH
-        || kind == TOK_HASH_WHILE || kind == TOK_HASH_FOR
-        || kind == TOK_HASH_MACRO;
+    return kind == TOK_HASH_IF || kind == TOK_HASH_IFDEF ||
+           kind == TOK_HASH_IFNDEF || kind == TOK_HASH_SWITCH ||
+           kind == TOK_HASH_WHILE || kind == TOK_HASH_FOR ||
+           kind == TOK_HASH_MACRO;
 }
 
 static bool is_if(int kind)
 {
-    return kind == TOK_HASH_IF || kind == TOK_HASH_IFDEF
-        || kind == TOK_HASH_IFNDEF;
+    return kind == TOK_HASH_IF || kind == TOK_HASH_IFDEF ||
+           kind == TOK_HASH_IFNDEF;
 }
 
 static void set_bad(struct token *token, const char *error)
@@ -48,9 +48,8 @@ static bool link_opener(struct linker *linker, uint32_t index)
     struct brume_error err = {0};
     struct open_block *around = innermost(linker);
     uint32_t breaks = around ? around->breaks : 0;
-    struct open_block *grown = memory_grow(linker->open, &linker->room,
-                                           linker->count + 1, sizeof *grown,
-                                           &err);
+    struct open_block *grown = memory_grow(
+        linker->open, &linker->room, linker->count + 1, sizeof *grown, &err);
     if (!grown) {
         return parser_relay(linker->parser,
                             token_location(&linker->token[index]), &err);

@@ -6,10 +6,9 @@
 #include "parser/eval.h"
 #include "parser/report.h"
 
-static const double CLOSE = 1e-10;      /* POV-Ray's bound for equality    */
+static const double CLOSE = 1e-10; /* POV-Ray's bound for equality    */
 
-static struct token *token_at(const struct expander *expander,
-                              uint32_t index)
+static struct token *token_at(const struct expander *expander, uint32_t index)
 {
     return &expand_frame(expander)->source->token[index];
 }
@@ -22,8 +21,8 @@ static void jump(struct expander *expander, uint32_t index)
 bool branch_is_closed(struct expander *expander, uint32_t opener)
 {
     const struct token *token = token_at(expander, opener);
-    return token->block.pair
-        || parser_error(expander->parser, token_location(token),
+    return token->block.pair ||
+           parser_error(expander->parser, token_location(token),
                         "%s has no '#end'", grammar_token_name(token->kind));
 }
 
@@ -37,8 +36,8 @@ static struct loop *innermost(const struct expander *expander)
 static bool open_loop(struct expander *expander, const struct loop *loop)
 {
     struct loop *grown = expand_grow(expander, expander->loop,
-                                     &expander->loop_room,
-                                     expander->loops + 1, sizeof *grown);
+                                     &expander->loop_room, expander->loops + 1,
+                                     sizeof *grown);
     if (!grown) {
         return false;
     }
@@ -93,7 +92,7 @@ static bool test_for(struct expander *expander)
         return false;
     }
     bool more = loop->step > 0 ? i->v[0] < loop->end + CLOSE
-        : i->v[0] > loop->end - CLOSE;
+                               : i->v[0] > loop->end - CLOSE;
     if (more) {
         jump(expander, loop->body);
         return count_iteration(expander, loop->opener);
@@ -126,10 +125,11 @@ static bool begin_for(struct expander *expander, uint32_t opener,
     if (name->symbol && name->symbol->constant) {
         return parser_error(expander->parser, named,
                             "'%s' is built in and cannot be a loop's "
-                            "variable", name->text);
+                            "variable",
+                            name->text);
     }
-    struct pending *pending = expand_begin(expander, TOK_MODE_FLOATS,
-                                           USE_FOR, at);
+    struct pending *pending = expand_begin(expander, TOK_MODE_FLOATS, USE_FOR,
+                                           at);
     if (!pending) {
         return false;
     }
@@ -145,8 +145,10 @@ static bool take_floats(struct expander *expander, struct location at,
     struct parser *parser = expander->parser;
     const struct value *value = eval_pop(parser, expander->count);
     if (expander->count < least || expander->count > most) {
-        return parser_error(parser, at, "expected %d%s floats in parentheses, "
-                            "found %d", least, most > least ? " or more" : "",
+        return parser_error(parser, at,
+                            "expected %d%s floats in parentheses, "
+                            "found %d",
+                            least, most > least ? " or more" : "",
                             expander->count);
     }
     for (int i = 0; i < expander->count; i++) {
@@ -159,8 +161,7 @@ static bool take_floats(struct expander *expander, struct location at,
     return !parser->failed;
 }
 
-static bool finish_for(struct expander *expander,
-                       const struct pending *pending)
+static bool finish_for(struct expander *expander, const struct pending *pending)
 {
     struct parser *parser = expander->parser;
     double bound[3] = {0, 0, 1};
@@ -172,11 +173,11 @@ static bool finish_for(struct expander *expander,
     }
     struct symbol *symbol = symbols_local(&parser->symbols,
                                           pending->branch.name);
-    struct loop loop = {
-        .opener = pending->branch.opener, .name = pending->branch.name,
-        .body = (uint32_t)expand_frame(expander)->next,
-        .end = bound[1], .step = bound[2]
-    };
+    struct loop loop = {.opener = pending->branch.opener,
+                        .name = pending->branch.name,
+                        .body = (uint32_t)expand_frame(expander)->next,
+                        .end = bound[1],
+                        .step = bound[2]};
     if (!symbol) {
         return report_no_memory(parser);
     }
@@ -206,9 +207,10 @@ static bool begin_clause(struct expander *expander, uint32_t index)
     if (range && !expand_need(expander, '(')) {
         return false;
     }
-    struct pending *pending = range
-        ? expand_begin(expander, TOK_MODE_FLOATS, USE_RANGE, at)
-        : expand_begin(expander, TOK_MODE_CONDITION, USE_CASE, at);
+    struct pending *pending = range ? expand_begin(expander, TOK_MODE_FLOATS,
+                                                   USE_RANGE, at)
+                                    : expand_begin(expander, TOK_MODE_CONDITION,
+                                                   USE_CASE, at);
     if (pending) {
         pending->branch.opener = index;
     }
@@ -293,7 +295,7 @@ static bool finish_condition(struct expander *expander,
         return take_clause(expander, pending, !value_is_true(value));
     case USE_WHILE:
         return value_is_true(value) ? count_iteration(expander, opener)
-            : (leave(expander, opener), true);
+                                    : (leave(expander, opener), true);
     default:
         return choose(expander, opener, value_is_true(value));
     }

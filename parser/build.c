@@ -192,8 +192,8 @@ const char *build_innermost(struct parser *parser, struct location *at)
 void build_misplaced(struct parser *parser, const struct frame *frame,
                      const struct value *value, struct location at)
 {
-    parser_error(parser, at, "'%s' cannot have a %s",
-                 statement_of(frame)->word, value_name(value));
+    parser_error(parser, at, "'%s' cannot have a %s", statement_of(frame)->word,
+                 value_name(value));
 }
 
 static void set_argument(struct parser *parser, struct frame *frame,
@@ -273,11 +273,11 @@ void build_set(struct parser *parser, const struct name *word,
                struct location number_at)
 {
     struct frame *frame = build_top(parser);
-    const struct param *row =
-        frame ? find_param(parser, frame, word, at) : NULL;
+    const struct param *row = frame ? find_param(parser, frame, word, at)
+                                    : NULL;
 
-    if (row && param_set(parser, row, frame->node, at, number, count,
-                         number_at))
+    if (row &&
+        param_set(parser, row, frame->node, at, number, count, number_at))
         note_set(parser, frame, row, at);
 }
 
@@ -291,8 +291,8 @@ void build_choose(struct parser *parser, const struct name *word,
                   const struct name *choice, struct location at)
 {
     struct frame *frame = build_top(parser);
-    const struct param *row =
-        frame ? find_param(parser, frame, word, at) : NULL;
+    const struct param *row = frame ? find_param(parser, frame, word, at)
+                                    : NULL;
 
     if (row && param_choose(parser, row, frame->node, choice->text, at))
         note_set(parser, frame, row, at);
@@ -323,8 +323,7 @@ static void warn_zero_scale(struct parser *parser, const struct value *factor,
 {
     for (int i = 0; i < 3; i++)
         if (factor->v[i] == 0)
-            parser_warn(parser, at, "scale of %c by 0 is taken as 1",
-                        "xyz"[i]);
+            parser_warn(parser, at, "scale of %c by 0 is taken as 1", "xyz"[i]);
 }
 
 void build_move(struct parser *parser, const char *word,
@@ -352,8 +351,8 @@ void build_move(struct parser *parser, const char *word,
     move(parser, frame, &by, word, at);
 }
 
-void build_matrix(struct parser *parser, const struct value *number,
-                  int count, struct location at)
+void build_matrix(struct parser *parser, const struct value *number, int count,
+                  struct location at)
 {
     struct frame *frame = build_top(parser);
     double v[12];

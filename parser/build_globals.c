@@ -4,17 +4,16 @@
 #include "parser/builder.h"
 
 enum { GLOBAL_INTEGRATOR = 1, GLOBAL_GAMMA = 2 };
-enum { TRANSPORT_MEDIA = 1, TRANSPORT_SURFACES = 2,
-       TRANSPORT_ENVIRONMENT = 4 };
+enum { TRANSPORT_MEDIA = 1, TRANSPORT_SURFACES = 2, TRANSPORT_ENVIRONMENT = 4 };
 
 static const char *const unit_words[] = {"pov", "physical", NULL};
-static const char *const integrator_words[] = {"path", "photon",
-                                               "progressive", NULL};
+static const char *const integrator_words[] = {"path", "photon", "progressive",
+                                               NULL};
 
 static const char pattern_note[] = "there are no patterns that it is for yet";
 static const char finish_note[] = "there are no finishes that it is for yet";
 
-#define GLOBAL(word, kind, start, low, high, open, given)                     \
+#define GLOBAL(word, kind, start, low, high, open, given)                      \
     PARAM_ROW(#word, kind, start, low, high, open, given, struct globals, word)
 
 const struct param build_globals_params[] = {
@@ -39,8 +38,7 @@ static const char *const media_words[] = {"single", "multiple", NULL};
 static const char *const surfaces_words[] = {"direct", "indirect", NULL};
 
 const struct param build_transport_params[] = {
-    PARAM_WORDS("media", media_words, TRANSPORT_MEDIA, struct transport,
-                media),
+    PARAM_WORDS("media", media_words, TRANSPORT_MEDIA, struct transport, media),
     PARAM_WORDS("surfaces", surfaces_words, TRANSPORT_SURFACES,
                 struct transport, surfaces),
     PARAM_ANY("environment", PARAM_SWITCH, 0, TRANSPORT_ENVIRONMENT,
@@ -74,8 +72,10 @@ static void set_globals(struct parser *parser, struct frame *frame,
     if (row->given == GLOBAL_GAMMA) {
         parser->out->assumed_gamma = globals->assumed_gamma;
         if (globals->assumed_gamma != 1)
-            parser_warn(parser, at, "assumed_gamma %g is taken as 1: Brume "
-                        "computes with linear light", globals->assumed_gamma);
+            parser_warn(parser, at,
+                        "assumed_gamma %g is taken as 1: Brume "
+                        "computes with linear light",
+                        globals->assumed_gamma);
     }
 }
 
@@ -124,12 +124,12 @@ static bool finish_globals(struct parser *parser, struct brume_error *err)
 
     memcpy(to.background, globals->background, sizeof to.background);
     memcpy(to.ambient_light, globals->ambient_light, sizeof to.ambient_light);
-    to.media_multiple =
-        transported(globals, TRANSPORT_MEDIA, said->media, full);
-    to.surfaces_indirect =
-        transported(globals, TRANSPORT_SURFACES, said->surfaces, full);
-    to.environment =
-        transported(globals, TRANSPORT_ENVIRONMENT, said->environment, full);
+    to.media_multiple = transported(globals, TRANSPORT_MEDIA, said->media,
+                                    full);
+    to.surfaces_indirect = transported(globals, TRANSPORT_SURFACES,
+                                       said->surfaces, full);
+    to.environment = transported(globals, TRANSPORT_ENVIRONMENT,
+                                 said->environment, full);
     to.physical_units = globals->light_units == 1;
     parser->out->accuracy = globals->accuracy;
     parser->out->time_limit = globals->time_limit;

@@ -16,8 +16,7 @@ static void open_density(struct parser *parser, struct frame *frame)
 }
 
 static const struct param density_arguments[] = {
-    PARAM_ROW("color", PARAM_RGB, 1, 0, INFINITY, 0, 0, struct density,
-              color),
+    PARAM_ROW("color", PARAM_RGB, 1, 0, INFINITY, 0, 0, struct density, color),
     {0}};
 
 static void apply_density(struct parser *parser, struct frame *frame,
@@ -81,7 +80,8 @@ void build_density_file(struct parser *parser, const struct build_file *file)
     if (!frame)
         return;
     if (frame->kind == BUILD_PIGMENT)
-        parser_error(parser, frame->at, "'density_file' in a pigment is not "
+        parser_error(parser, frame->at,
+                     "'density_file' in a pigment is not "
                      "supported yet");
     else
         load_density(parser, file, role_of(frame->kind), frame->node);
@@ -143,20 +143,26 @@ static const char *const brightness_words[] = {
     [BRUME_BRIGHTNESS_PHYSICAL] = "physical",
     [BRUME_BRIGHTNESS_NORMALIZED] = "normalized",
     [BRUME_BRIGHTNESS_CONSTANT] = "constant",
-    [BRUME_BRIGHTNESS_TOTAL] = "total", NULL};
+    [BRUME_BRIGHTNESS_TOTAL] = "total",
+    NULL};
 static const char *const coupling_words[] = {"absorption", "additive", NULL};
-static const char *const preset_words[] = {
-    [FIRE_CYCLES] = "cycles", [FIRE_PBRT] = "pbrt",
-    [FIRE_HOUDINI] = "houdini", NULL};
+static const char *const preset_words[] = {[FIRE_CYCLES] = "cycles",
+                                           [FIRE_PBRT] = "pbrt",
+                                           [FIRE_HOUDINI] = "houdini",
+                                           NULL};
 
 const struct param build_fire_params[] = {
-    {.word = "kelvin", .kind = PARAM_PAIR, .start = {1000, 0, 0},
-     .low = -INFINITY, .high = INFINITY, .alone = NAN,
+    {.word = "kelvin",
+     .kind = PARAM_PAIR,
+     .start = {1000, 0, 0},
+     .low = -INFINITY,
+     .high = INFINITY,
+     .alone = NAN,
      .offset = offsetof(struct fire, kelvin)},
     PARAM_ROW("intensity", PARAM_FLOAT, 1, 0, INFINITY, 0, 0, struct fire,
               intensity),
-    PARAM_ROW("reference", PARAM_FLOAT, 2000, 500, INFINITY, 0, 0,
-              struct fire, reference),
+    PARAM_ROW("reference", PARAM_FLOAT, 2000, 500, INFINITY, 0, 0, struct fire,
+              reference),
     PARAM_WORDS("brightness", brightness_words, 0, struct fire, brightness),
     PARAM_WORDS("coupling", coupling_words, 0, struct fire, additive),
     PARAM_WORDS("preset", preset_words, 0, struct fire, preset),
@@ -215,8 +221,8 @@ struct scattering {
 };
 
 const struct param build_scattering_params[] = {
-    PARAM_ROW("eccentricity", PARAM_FLOAT, 0, -1, 1,
-              PARAM_ABOVE | PARAM_BELOW, 0, struct scattering, eccentricity),
+    PARAM_ROW("eccentricity", PARAM_FLOAT, 0, -1, 1, PARAM_ABOVE | PARAM_BELOW,
+              0, struct scattering, eccentricity),
     PARAM_ROW("extinction", PARAM_FLOAT, 1, 0, INFINITY, 0, 0,
               struct scattering, extinction),
     {0}};
@@ -258,8 +264,7 @@ const struct statement build_statement_scattering = {
 
 /* ---- media ------------------------------------------------------------- */
 
-static const char sampling_note[] =
-    "Brume chooses its own sampling of media";
+static const char sampling_note[] = "Brume chooses its own sampling of media";
 
 const struct param build_media_params[] = {
     PARAM_ROW("absorption", PARAM_RGB, 0, 0, INFINITY, 0, 0, struct media,

@@ -55,9 +55,11 @@ static void open_triangle(struct parser *parser, struct frame *frame)
 static void triangle_argument(struct parser *parser, struct frame *frame,
                               const struct value *number, struct location at)
 {
-    static const struct param row = {
-        .word = "corner", .kind = PARAM_VECTOR, .low = -INFINITY,
-        .high = INFINITY, .alone = NAN};
+    static const struct param row = {.word = "corner",
+                                     .kind = PARAM_VECTOR,
+                                     .low = -INFINITY,
+                                     .high = INFINITY,
+                                     .alone = NAN};
     int needed = frame->kind == BUILD_TRIANGLE ? 3 : 6;
 
     if (frame->arguments >= needed)
@@ -117,8 +119,8 @@ static void close_triangle(struct parser *parser, struct frame *frame,
                            struct location at)
 {
     bool smooth = frame->kind == BUILD_SMOOTH_TRIANGLE;
-    const struct object *object =
-        frame->node ? frame->node : build_around(parser)->node;
+    const struct object *object = frame->node ? frame->node
+                                              : build_around(parser)->node;
     struct brume_error err = {0};
 
     if (!add_triangle(parser->builder, object->mesh->mesh, smooth, &err))
@@ -131,8 +133,10 @@ static void apply_triangle(struct parser *parser, struct frame *frame,
     if (frame->node)
         build_object_apply(parser, frame, value, at);
     else
-        parser_error(parser, at, "a %s of one triangle of a mesh is not "
-                     "supported yet", value_name(value));
+        parser_error(parser, at,
+                     "a %s of one triangle of a mesh is not "
+                     "supported yet",
+                     value_name(value));
 }
 
 static void move_triangle(struct parser *parser, struct frame *frame,
@@ -151,22 +155,20 @@ static void set_triangle(struct parser *parser, struct frame *frame,
     build_object_set(parser, frame, row, at);
 }
 
-void build_uv_vectors(struct parser *parser, const struct value *uv,
-                      int count, struct location at)
+void build_uv_vectors(struct parser *parser, const struct value *uv, int count,
+                      struct location at)
 {
     struct frame *frame = build_top(parser);
     struct builder *builder = parser->builder;
 
     if (!frame)
         return;
-    if (frame->kind != BUILD_TRIANGLE &&
-        frame->kind != BUILD_SMOOTH_TRIANGLE) {
+    if (frame->kind != BUILD_TRIANGLE && frame->kind != BUILD_SMOOTH_TRIANGLE) {
         parser_error(parser, at, "'uv_vectors' belongs to triangles here");
         return;
     }
     if (count != 3) {
-        parser_error(parser, at, "a triangle has 3 uv_vectors, not %d",
-                     count);
+        parser_error(parser, at, "a triangle has 3 uv_vectors, not %d", count);
         return;
     }
     builder->uvs = 3;
@@ -176,13 +178,17 @@ void build_uv_vectors(struct parser *parser, const struct value *uv,
     }
 }
 
-static const struct param triangle_rows[] = {
-    {.word = "first corner"}, {.word = "second corner"},
-    {.word = "third corner"}, {0}};
-static const struct param smooth_rows[] = {
-    {.word = "first corner"}, {.word = "first normal"},
-    {.word = "second corner"}, {.word = "second normal"},
-    {.word = "third corner"}, {.word = "third normal"}, {0}};
+static const struct param triangle_rows[] = {{.word = "first corner"},
+                                             {.word = "second corner"},
+                                             {.word = "third corner"},
+                                             {0}};
+static const struct param smooth_rows[] = {{.word = "first corner"},
+                                           {.word = "first normal"},
+                                           {.word = "second corner"},
+                                           {.word = "second normal"},
+                                           {.word = "third corner"},
+                                           {.word = "third normal"},
+                                           {0}};
 
 const struct statement build_statement_triangle = {
     .word = "triangle",
@@ -225,8 +231,8 @@ void build_mesh_set(struct parser *parser, struct frame *frame,
     const struct object *object = frame->node;
     const double *v = object->inside;
 
-    if (!strcmp(row->word, "inside_vector") &&
-        v[0] == 0 && v[1] == 0 && v[2] == 0)
+    if (!strcmp(row->word, "inside_vector") && v[0] == 0 && v[1] == 0 &&
+        v[2] == 0)
         parser_error(parser, at, "'inside_vector' has no direction");
     build_object_set(parser, frame, row, at);
 }

@@ -23,7 +23,8 @@ static bool announced(struct parser *parser, struct frame *frame,
     if (frame->arguments == 0) {
         if (number->terms != 1 || !(number->v[0] >= 0) ||
             number->v[0] > 4294967294.0)
-            parser_error(parser, at, "the count of a list must be from 0 to "
+            parser_error(parser, at,
+                         "the count of a list must be from 0 to "
                          "4294967294");
         builder->announced = (int64_t)number->v[0];
         /* Counted on in 64 bits by `listed`. */
@@ -32,8 +33,10 @@ static bool announced(struct parser *parser, struct frame *frame,
     frame->arguments = 1;
     if (builder->listed++ < builder->announced)
         return true;
-    return parser_error(parser, at, "this list announces %lld items but has "
-                        "more", (long long)builder->announced);
+    return parser_error(parser, at,
+                        "this list announces %lld items but has "
+                        "more",
+                        (long long)builder->announced);
 }
 
 static void list_vector(struct parser *parser, struct frame *frame,
@@ -73,17 +76,18 @@ static void list_index(struct parser *parser, struct frame *frame,
 {
     struct index_list *list = list_of(parser, frame->kind);
     struct brume_error err = {0};
-    uint32_t (*item)[3];
+    uint32_t(*item)[3];
 
     if (frame->arguments > 0 && number->terms == 1) {
-        parser_error(parser, at, "textures of single triangles are not "
+        parser_error(parser, at,
+                     "textures of single triangles are not "
                      "supported yet");
         return;
     }
     if (!announced(parser, frame, number, at))
         return;
-    item = memory_grow(list->item, &list->room, list->count + 1,
-                       sizeof *item, &err);
+    item = memory_grow(list->item, &list->room, list->count + 1, sizeof *item,
+                       &err);
     if (!item) {
         parser_relay(parser, at, &err);
         return;
@@ -107,21 +111,22 @@ static void close_list(struct parser *parser, struct frame *frame,
 
     (void)at;
     if (builder->listed < builder->announced)
-        parser_error(parser, frame->at, "this list announces %lld items but "
-                     "has %lld", (long long)builder->announced,
-                     (long long)builder->listed);
+        parser_error(parser, frame->at,
+                     "this list announces %lld items but "
+                     "has %lld",
+                     (long long)builder->announced, (long long)builder->listed);
 }
 
 static const struct param list_rows[] = {{.word = "count"}, {0}};
 
-#define LIST_STATEMENT(name, item)                                            \
-    const struct statement build_statement_##name = {                         \
-        .word = #name,                                                        \
-        .arguments = list_rows,                                               \
-        .needed = 1,                                                          \
-        .open = open_list,                                                    \
-        .argument = item,                                                     \
-        .close = close_list,                                                  \
+#define LIST_STATEMENT(name, item)                                             \
+    const struct statement build_statement_##name = {                          \
+        .word = #name,                                                         \
+        .arguments = list_rows,                                                \
+        .needed = 1,                                                           \
+        .open = open_list,                                                     \
+        .argument = item,                                                      \
+        .close = close_list,                                                   \
     }
 
 LIST_STATEMENT(vertex_vectors, list_vector);
@@ -164,8 +169,7 @@ static bool make_triangles(const struct builder *builder, struct mesh *mesh,
                                                mesh->vertices);
 
     for (size_t i = 0; i < faces->count; i++) {
-        const uint32_t *normal =
-            i < normals->count ? normals->item[i] : none;
+        const uint32_t *normal = i < normals->count ? normals->item[i] : none;
         if (!mesh_add_triangle(mesh, faces->item[i],
                                normals->count ? normal : NULL,
                                uvs->count ? uvs->item[i] : NULL, err))
@@ -183,17 +187,20 @@ static bool check_counts(struct parser *parser, const struct mesh *mesh,
     if (list[LIST_FACES].count == 0)
         return parser_error(parser, at, "this mesh2 has no face_indices");
     if (list[LIST_NORMALS].count > list[LIST_FACES].count)
-        return parser_error(parser, at, "this mesh2 has %zu normal_indices "
-                            "for %zu faces", list[LIST_NORMALS].count,
-                            list[LIST_FACES].count);
+        return parser_error(parser, at,
+                            "this mesh2 has %zu normal_indices "
+                            "for %zu faces",
+                            list[LIST_NORMALS].count, list[LIST_FACES].count);
     if (list[LIST_UVS].count > 0 &&
         list[LIST_UVS].count != list[LIST_FACES].count)
-        return parser_error(parser, at, "this mesh2 has %zu uv_indices for "
-                            "%zu faces", list[LIST_UVS].count,
-                            list[LIST_FACES].count);
+        return parser_error(parser, at,
+                            "this mesh2 has %zu uv_indices for "
+                            "%zu faces",
+                            list[LIST_UVS].count, list[LIST_FACES].count);
     if (mesh->normals > 0 && list[LIST_NORMALS].count == 0 &&
         mesh->normals != mesh->vertices)
-        return parser_error(parser, at, "this mesh2 needs normal_indices: it "
+        return parser_error(parser, at,
+                            "this mesh2 needs normal_indices: it "
                             "has %zu normals for %zu vertices",
                             mesh->normals, mesh->vertices);
     return true;
@@ -209,8 +216,7 @@ static void close_mesh2(struct parser *parser, struct frame *frame,
     (void)at;
     if (!check_counts(parser, mesh, frame->at))
         return;
-    if (!make_triangles(parser->builder, mesh, &err) ||
-        !mesh_check(mesh, &err))
+    if (!make_triangles(parser->builder, mesh, &err) || !mesh_check(mesh, &err))
         parser_relay(parser, frame->at, &err);
 }
 

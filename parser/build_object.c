@@ -3,9 +3,9 @@
 
 #include "parser/builder.h"
 
-#define POINT(word, member)                                                   \
+#define POINT(word, member)                                                    \
     PARAM_ANY(word, PARAM_VECTOR, 0, 0, struct object, shape.member)
-#define LENGTH(word, member)                                                  \
+#define LENGTH(word, member)                                                   \
     PARAM_ANY(word, PARAM_FLOAT, 0, 0, struct object, shape.member)
 
 /* ---- modifiers that all objects have ----------------------------------- */
@@ -26,8 +26,7 @@ void build_object_set(struct parser *parser, struct frame *frame,
     if (strcmp(row->word, "inverse"))
         return;
     if (object->kind == OBJECT_UNION)
-        parser_error(parser, at,
-                     "'inverse' of a union is not supported yet");
+        parser_error(parser, at, "'inverse' of a union is not supported yet");
     object->inverse = !object->inverse;
 }
 
@@ -97,8 +96,7 @@ void build_object_move(struct parser *parser, struct frame *frame,
 }
 
 struct object *build_object_start(struct frame *frame, enum object_kind kind,
-                                  enum brume_shape_kind shape,
-                                  const char *word)
+                                  enum brume_shape_kind shape, const char *word)
 {
     static const struct brume_shape start = BRUME_SHAPE_INIT;
     struct object *object = frame->node;
@@ -156,17 +154,22 @@ static const struct param sphere_arguments[] = {
     POINT("center", a), LENGTH("radius", radius), {0}};
 static const struct param box_arguments[] = {
     POINT("first corner", a), POINT("second corner", b), {0}};
-static const struct param cylinder_arguments[] = {
-    POINT("base point", a), POINT("cap point", b), LENGTH("radius", radius),
-    {0}};
-static const struct param cone_arguments[] = {
-    POINT("base point", a), LENGTH("base radius", radius),
-    POINT("cap point", b), LENGTH("cap radius", radius_b), {0}};
+static const struct param cylinder_arguments[] = {POINT("base point", a),
+                                                  POINT("cap point", b),
+                                                  LENGTH("radius", radius),
+                                                  {0}};
+static const struct param cone_arguments[] = {POINT("base point", a),
+                                              LENGTH("base radius", radius),
+                                              POINT("cap point", b),
+                                              LENGTH("cap radius", radius_b),
+                                              {0}};
 static const struct param plane_arguments[] = {
     POINT("normal", a), LENGTH("distance", radius), {0}};
-static const struct param disc_arguments[] = {
-    POINT("center", a), POINT("normal", b), LENGTH("radius", radius),
-    LENGTH("hole radius", radius_b), {0}};
+static const struct param disc_arguments[] = {POINT("center", a),
+                                              POINT("normal", b),
+                                              LENGTH("radius", radius),
+                                              LENGTH("hole radius", radius_b),
+                                              {0}};
 
 /* Corners may be named in any order, radii may be negative, as in POV-Ray. */
 static void close_shape(struct parser *parser, struct frame *frame,
@@ -188,19 +191,19 @@ static void close_shape(struct parser *parser, struct frame *frame,
     }
 }
 
-#define SHAPE_STATEMENT(name, count, table)                                   \
-    const struct statement build_statement_##name = {                         \
-        .word = #name,                                                        \
-        .makes = VALUE_OBJECT,                                                \
-        .size = sizeof(struct object),                                        \
-        .params = table,                                                      \
-        .arguments = name##_arguments,                                        \
-        .needed = count,                                                      \
-        .open = open_##name,                                                  \
-        .apply = build_object_apply,                                          \
-        .move = build_object_move,                                            \
-        .close = close_shape,                                                 \
-        .set = build_object_set,                                              \
+#define SHAPE_STATEMENT(name, count, table)                                    \
+    const struct statement build_statement_##name = {                          \
+        .word = #name,                                                         \
+        .makes = VALUE_OBJECT,                                                 \
+        .size = sizeof(struct object),                                         \
+        .params = table,                                                       \
+        .arguments = name##_arguments,                                         \
+        .needed = count,                                                       \
+        .open = open_##name,                                                   \
+        .apply = build_object_apply,                                           \
+        .move = build_object_move,                                             \
+        .close = close_shape,                                                  \
+        .set = build_object_set,                                               \
     }
 
 SHAPE_STATEMENT(sphere, 2, build_object_params);

@@ -10,7 +10,7 @@
 /* What a union hands down to its parts. */
 struct inheritance {
     transform by;
-    struct placed_texture texture;      /* placed in the world             */
+    struct placed_texture texture; /* placed in the world             */
     struct placed_interior interior;
     bool hollow, shadow;
 };
@@ -29,13 +29,12 @@ static int remember(struct parser *parser, int what, const void *bytes,
                     size_t size, int id)
 {
     if (id >= 0)
-        intern_keep(&parser->builder->intern[what], &parser->arena, bytes,
-                    size, id);
+        intern_keep(&parser->builder->intern[what], &parser->arena, bytes, size,
+                    id);
     return id;
 }
 
-static int sent(struct parser *parser, int what, const void *bytes,
-                size_t size)
+static int sent(struct parser *parser, int what, const void *bytes, size_t size)
 {
     return intern_find(&parser->builder->intern[what], bytes, size);
 }
@@ -170,8 +169,8 @@ static int send_mesh(struct parser *parser, struct model_mesh *mesh,
 
 /* ---- objects ----------------------------------------------------------- */
 
-static void inherit(const struct object *object,
-                    const struct inheritance *from, struct inheritance *out)
+static void inherit(const struct object *object, const struct inheritance *from,
+                    struct inheritance *out)
 {
     *out = *from;
     out->by = transform_then(&object->by, &from->by);
@@ -198,8 +197,10 @@ static bool shows_media(struct parser *parser, const struct object *object,
         return false;
     if (!has->hollow && !interior->warned) {
         interior->warned = true;
-        parser_warn(parser, object->at, "the media of this %s is not shown: "
-                    "it is not 'hollow'", object->word);
+        parser_warn(parser, object->at,
+                    "the media of this %s is not shown: "
+                    "it is not 'hollow'",
+                    object->word);
     }
     return has->hollow;
 }
@@ -214,8 +215,7 @@ static bool vanishes(const struct brume_shape *shape)
 }
 
 static bool place_shape(struct parser *parser, const struct object *object,
-                        const struct inheritance *has,
-                        struct brume_error *err)
+                        const struct inheritance *has, struct brume_error *err)
 {
     struct brume_shape shape = object->shape;
     const struct placed_texture bare = {&parser->builder->default_texture,
@@ -233,9 +233,9 @@ static bool place_shape(struct parser *parser, const struct object *object,
     shape.material = send_material(
         parser, has->texture.what ? &has->texture : &bare, err);
     if (shows_media(parser, object, has))
-        shape.interior = send_interior(
-            parser, has->interior.what->media, has->interior.what->count,
-            &has->interior.by, err);
+        shape.interior = send_interior(parser, has->interior.what->media,
+                                       has->interior.what->count,
+                                       &has->interior.by, err);
     if (object->kind == OBJECT_MESH)
         shape.mesh = send_mesh(parser, object->mesh, err);
     return err->code == BRUME_OK &&
@@ -243,8 +243,7 @@ static bool place_shape(struct parser *parser, const struct object *object,
 }
 
 static bool place_light(struct parser *parser, const struct object *object,
-                        const struct inheritance *has,
-                        struct brume_error *err)
+                        const struct inheritance *has, struct brume_error *err)
 {
     struct brume_light light = object->light;
 
@@ -258,9 +257,9 @@ static bool place_light(struct parser *parser, const struct object *object,
 static struct placing *push(struct builder *builder, size_t depth,
                             struct brume_error *err)
 {
-    struct placing *stack =
-        memory_grow(builder->placing, &builder->placing_room, depth + 1,
-                    sizeof *stack, err);
+    struct placing *stack = memory_grow(builder->placing,
+                                        &builder->placing_room, depth + 1,
+                                        sizeof *stack, err);
 
     if (stack)
         builder->placing = stack;

@@ -46,8 +46,8 @@ static void open_checker(struct pigment *pigment)
 }
 
 static const struct param pigment_params[] = {
-    PARAM_WORD("checker", PARAM_MARK, BRUME_PIGMENT_CHECKER, 0,
-               struct pigment, kind),
+    PARAM_WORD("checker", PARAM_MARK, BRUME_PIGMENT_CHECKER, 0, struct pigment,
+               kind),
     PARAM_WITHOUT("quick_color", "Brume has no previews of that kind"),
     PARAM_WITHOUT("quick_colour", "Brume has no previews of that kind"),
     {0}};
@@ -83,8 +83,8 @@ static void pigment_argument(struct parser *parser, struct frame *frame,
         pigment->kind = BRUME_PIGMENT_SOLID;
         pigment->by = transform_identity();
     }
-    param_set(parser, &pigment_colors[frame->arguments], pigment, at, number,
-              1, at);
+    param_set(parser, &pigment_colors[frame->arguments], pigment, at, number, 1,
+              at);
 }
 
 static void apply_pigment(struct parser *parser, struct frame *frame,
@@ -119,7 +119,7 @@ const struct statement build_statement_pigment = {
 
 /* ---- finish ------------------------------------------------------------ */
 
-#define FINISH(word, kind, start, low, open)                                  \
+#define FINISH(word, kind, start, low, open)                                   \
     PARAM_ROW(#word, kind, start, low, INFINITY, open, 0, struct finish, word)
 
 const struct param build_finish_params[] = {
@@ -131,7 +131,10 @@ const struct param build_finish_params[] = {
     FINISH(phong_size, PARAM_FLOAT, 40, 0, 0),
     FINISH(specular, PARAM_FLOAT, 0, 0, 0),
     FINISH(roughness, PARAM_FLOAT, 0.05, 0, PARAM_ABOVE),
-    {.word = "metallic", .kind = PARAM_FLOAT, .high = 1, .alone = 1,
+    {.word = "metallic",
+     .kind = PARAM_FLOAT,
+     .high = 1,
+     .alone = 1,
      .offset = offsetof(struct finish, metallic)},
     {0}};
 
@@ -256,9 +259,8 @@ bool build_wear(struct parser *parser, struct placed_texture *worn,
                 const struct value *value, struct location at)
 {
     if (value->kind == VALUE_TEXTURE) {
-        struct placed_texture over = {
-            value->node, transform_identity(),
-            value->node == parser->builder->fresh};
+        struct placed_texture over = {value->node, transform_identity(),
+                                      value->node == parser->builder->fresh};
         return build_wear_placed(parser, worn, &over, at);
     }
     return own_texture(parser, worn) && set_part(worn->what, value);

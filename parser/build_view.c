@@ -7,10 +7,12 @@
 
 enum { CAMERA_UP = 1, CAMERA_RIGHT = 2, CAMERA_LOOK_AT = 4 };
 
-#define CAMERA_VECTOR(word_, x, y, z, bit)                                    \
-    {.word = #word_, .kind = PARAM_VECTOR, .start = {x, y, z},                \
-     .low = -INFINITY, .high = INFINITY, .alone = NAN, .given = bit,          \
-     .offset = offsetof(struct camera, word_)}
+#define CAMERA_VECTOR(word_, x, y, z, bit)                                     \
+    {                                                                          \
+        .word = #word_, .kind = PARAM_VECTOR, .start = {x, y, z},              \
+        .low = -INFINITY, .high = INFINITY, .alone = NAN, .given = bit,        \
+        .offset = offsetof(struct camera, word_)                               \
+    }
 
 const struct param build_camera_params[] = {
     PARAM_WORD("perspective", PARAM_MARK, BRUME_CAMERA_PERSPECTIVE, 0,
@@ -76,7 +78,8 @@ static void close_camera(struct parser *parser, struct frame *frame,
                      "the camera's location and look_at are the same point");
         break;
     case CAMERA_SKY_AHEAD:
-        parser_warn(parser, frame->at, "the camera looks along its sky "
+        parser_warn(parser, frame->at,
+                    "the camera looks along its sky "
                     "vector: right stays as it is");
         break;
     case CAMERA_FINE:
@@ -99,15 +102,19 @@ const struct statement build_statement_camera = {
 
 enum { LIGHT_SPOT_ONLY = 1 };
 
-#define LIGHT(word, start, low, high, bit)                                    \
-    PARAM_ROW(#word, PARAM_FLOAT, start, low, high, 0, bit, struct object,    \
+#define LIGHT(word, start, low, high, bit)                                     \
+    PARAM_ROW(#word, PARAM_FLOAT, start, low, high, 0, bit, struct object,     \
               light.word)
 
 const struct param build_light_params[] = {
     PARAM_WORD("spotlight", PARAM_MARK, BRUME_LIGHT_SPOT, 0, struct object,
                light.kind),
-    {.word = "point_at", .kind = PARAM_VECTOR, .start = {0, 0, 1},
-     .low = -INFINITY, .high = INFINITY, .alone = NAN,
+    {.word = "point_at",
+     .kind = PARAM_VECTOR,
+     .start = {0, 0, 1},
+     .low = -INFINITY,
+     .high = INFINITY,
+     .alone = NAN,
      .given = LIGHT_SPOT_ONLY,
      .offset = offsetof(struct object, light.point_at)},
     LIGHT(radius, 30, -90, 90, LIGHT_SPOT_ONLY),
@@ -115,8 +122,7 @@ const struct param build_light_params[] = {
     LIGHT(tightness, 0, 0, INFINITY, LIGHT_SPOT_ONLY),
     LIGHT(fade_distance, 0, 0, INFINITY, 0),
     LIGHT(fade_power, 0, 0, INFINITY, 0),
-    PARAM_WORD("shadowless", PARAM_CLEAR, 0, 0, struct object,
-               light.shadows),
+    PARAM_WORD("shadowless", PARAM_CLEAR, 0, 0, struct object, light.shadows),
     PARAM_ANY("media_interaction", PARAM_SWITCH, 1, 0, struct object,
               light.media_interaction),
     PARAM_ANY("media_attenuation", PARAM_SWITCH, 0, 0, struct object,
@@ -160,9 +166,9 @@ static void close_light(struct parser *parser, struct frame *frame,
     const struct object *light = frame->node;
 
     (void)at;
-    if (light->light.kind != BRUME_LIGHT_SPOT &&
-        frame->given & LIGHT_SPOT_ONLY)
-        parser_warn(parser, frame->at, "point_at, radius, falloff and "
+    if (light->light.kind != BRUME_LIGHT_SPOT && frame->given & LIGHT_SPOT_ONLY)
+        parser_warn(parser, frame->at,
+                    "point_at, radius, falloff and "
                     "tightness have no effect without 'spotlight'");
 }
 
@@ -182,8 +188,7 @@ const struct statement build_statement_light = {
 /* ---- background -------------------------------------------------------- */
 
 static const struct param background_arguments[] = {
-    PARAM_ANY("color", PARAM_RGB, 0, 0, struct globals, background),
-    {0}};
+    PARAM_ANY("color", PARAM_RGB, 0, 0, struct globals, background), {0}};
 
 static void open_background(struct parser *parser, struct frame *frame)
 {

@@ -19,9 +19,9 @@ struct call {
 
 struct builtin {
     const char *word;
-    const char *signature;      /* its last letter goes for all that follow */
-    int least, most;            /* arguments                               */
-    double (*plain)(double x);  /* the function of one float, or NULL      */
+    const char *signature;     /* its last letter goes for all that follow */
+    int least, most;           /* arguments                               */
+    double (*plain)(double x); /* the function of one float, or NULL      */
     struct value (*run)(struct call *call);
 };
 
@@ -34,8 +34,8 @@ static double argument(const struct call *call, int i)
 
 static struct value domain_error(struct call *call, double x)
 {
-    parser_error(call->parser, call->at, "%s of %g is not defined",
-                 call->word, x);
+    parser_error(call->parser, call->at, "%s of %g is not defined", call->word,
+                 x);
     return value_float(0);
 }
 
@@ -114,8 +114,8 @@ static struct value run_pow(struct call *call)
     double x = argument(call, 0), y = argument(call, 1);
     double power = pow(x, y);
     if ((x == 0 && y == 0) || (isnan(power) && !isnan(x) && !isnan(y))) {
-        parser_error(call->parser, call->at, "pow(%g, %g) is not defined",
-                     x, y);
+        parser_error(call->parser, call->at, "pow(%g, %g) is not defined", x,
+                     y);
         return value_float(0);
     }
     return value_float(power);
@@ -134,14 +134,16 @@ static bool divides_by_zero(struct call *call)
 
 static struct value run_div(struct call *call)
 {
-    return value_float(divides_by_zero(call) ? HUGE_VAL
-                       : trunc(argument(call, 0) / argument(call, 1)));
+    return value_float(divides_by_zero(call)
+                           ? HUGE_VAL
+                           : trunc(argument(call, 0) / argument(call, 1)));
 }
 
 static struct value run_mod(struct call *call)
 {
-    return value_float(divides_by_zero(call) ? HUGE_VAL
-                       : fmod(argument(call, 0), argument(call, 1)));
+    return value_float(divides_by_zero(call)
+                           ? HUGE_VAL
+                           : fmod(argument(call, 0), argument(call, 1)));
 }
 
 static struct value run_min(struct call *call)
@@ -172,8 +174,10 @@ static struct value run_select(struct call *call)
 /* A float as the integer that bitwise functions see. */
 static int32_t integer(double x)
 {
-    return x >= INT32_MAX ? INT32_MAX : x <= INT32_MIN ? INT32_MIN
-        : isnan(x) ? 0 : (int32_t)x;
+    return x >= INT32_MAX   ? INT32_MAX
+           : x <= INT32_MIN ? INT32_MIN
+           : isnan(x)       ? 0
+                            : (int32_t)x;
 }
 
 static struct value run_bitwise(struct call *call)
@@ -182,8 +186,9 @@ static struct value run_bitwise(struct call *call)
     char kind = call->word[strlen("bitwise_")];
     for (int i = 1; i < call->count; i++) {
         int32_t other = integer(argument(call, i));
-        bits = kind == 'a' ? bits & other : kind == 'o' ? bits | other
-            : bits ^ other;
+        bits = kind == 'a'   ? bits & other
+               : kind == 'o' ? bits | other
+                             : bits ^ other;
     }
     return value_float(bits);
 }
@@ -196,8 +201,10 @@ static struct value run_rand(struct call *call)
     struct parser *parser = call->parser;
     double which = argument(call, 0);
     if (!(which >= 0 && which < (double)parser->randoms)) {
-        parser_error(parser, call->at, "there is no random stream %g: "
-                     "seed() begins one", which);
+        parser_error(parser, call->at,
+                     "there is no random stream %g: "
+                     "seed() begins one",
+                     which);
         return value_float(0);
     }
     uint32_t *state = &parser->random[(size_t)which];
@@ -301,8 +308,8 @@ static struct value run_vaxis_rotate(struct call *call)
     }
     cross(k.v, v.v, side);
     for (int i = 0; i < 3; i++) {
-        v.v[i] = v.v[i] * cos(angle) + side[i] * sin(angle)
-            + k.v[i] * along * (1 - cos(angle));
+        v.v[i] = v.v[i] * cos(angle) + side[i] * sin(angle) +
+                 k.v[i] * along * (1 - cos(angle));
     }
     return v;
 }
@@ -366,9 +373,10 @@ static bool number_format(struct call *call, int first, char *format,
     double width = trunc(argument(call, first));
     double precision = trunc(argument(call, first + 1));
     if (!(fabs(width) <= WIDEST) || !(fabs(precision) <= WIDEST)) {
-        parser_error(call->parser, call->at, "%s: width %g and precision %g "
-                     "must be within %d", call->word, width, precision,
-                     WIDEST);
+        parser_error(call->parser, call->at,
+                     "%s: width %g and precision %g "
+                     "must be within %d",
+                     call->word, width, precision, WIDEST);
         return false;
     }
     int used = snprintf(format, room, "%%%s%d", width < 0 ? "0" : "",
@@ -378,7 +386,7 @@ static bool number_format(struct call *call, int first, char *format,
     return true;
 }
 
-enum { NUMBER_ROOM = 1200 };    /* 309 digits, a point and 400 more        */
+enum { NUMBER_ROOM = 1200 }; /* 309 digits, a point and 400 more        */
 
 /* `format` comes from number_format. */
 static int write_number(char *text, const char *format, double x)
@@ -402,16 +410,15 @@ static struct value run_str(struct call *call)
 static struct value run_vstr(struct call *call)
 {
     double asked = trunc(argument(call, 0));
-    int terms = asked > VALUE_TERMS ? VALUE_TERMS : asked < 1 ? 1
-        : (int)asked;
+    int terms = asked > VALUE_TERMS ? VALUE_TERMS : asked < 1 ? 1 : (int)asked;
     struct value v = value_promote(call->argument[1], terms);
     struct string between = string_argument(call, 2);
     char format[32];
     if (!number_format(call, 3, format, sizeof format)) {
         return value_string("", 0);
     }
-    char *text = parser_alloc(call->parser, VALUE_TERMS
-                              * (NUMBER_ROOM + between.length));
+    char *text = parser_alloc(call->parser,
+                              VALUE_TERMS * (NUMBER_ROOM + between.length));
     size_t at = 0;
     for (int i = 0; text && i < terms; i++) {
         if (i > 0) {
@@ -454,16 +461,17 @@ static struct value run_substr(struct call *call)
     struct string s = string_argument(call, 0);
     double first = trunc(argument(call, 1)), count = trunc(argument(call, 2));
     size_t length = utf8_count(s.text, s.length);
-    if (!(first >= 1 && count >= 0
-          && first - 1 + count <= (double)length)) {
-        parser_error(call->parser, call->at, "substr: %g characters from "
-                     "character %g of a string of %zu", count, first, length);
+    if (!(first >= 1 && count >= 0 && first - 1 + count <= (double)length)) {
+        parser_error(call->parser, call->at,
+                     "substr: %g characters from "
+                     "character %g of a string of %zu",
+                     count, first, length);
         return value_string("", 0);
     }
     size_t start = utf8_cut(s.text, s.length, (size_t)first - 1);
-    return copy_string(call, s.text + start,
-                       utf8_cut(s.text + start, s.length - start,
-                                (size_t)count));
+    return copy_string(
+        call, s.text + start,
+        utf8_cut(s.text + start, s.length - start, (size_t)count));
 }
 
 static struct value run_val(struct call *call)
@@ -478,8 +486,8 @@ static struct value run_val(struct call *call)
 
 static struct value run_file_exists(struct call *call)
 {
-    return value_float(parser_file_exists(call->parser, call->at,
-                                          string_argument(call, 0)));
+    return value_float(
+        parser_file_exists(call->parser, call->at, string_argument(call, 0)));
 }
 
 /* ---- the table --------------------------------------------------------- */
@@ -536,8 +544,7 @@ static const struct builtin table[] = {
     {"vlength", "v", 1, 1, NULL, run_vlength},
     {"vnormalize", "v", 1, 1, NULL, run_vnormalize},
     {"vrotate", "v", 2, 2, NULL, run_vrotate},
-    {"vstr", "fnsff", 5, 5, NULL, run_vstr}
-};
+    {"vstr", "fnsff", 5, 5, NULL, run_vstr}};
 
 static int by_word(const void *word, const void *row)
 {
@@ -562,8 +569,9 @@ static bool count_fits(const struct call *call, const struct builtin *row)
     if (call->count >= row->least && call->count <= row->most) {
         return true;
     }
-    const char *how = row->least == row->most ? ""
-        : call->count < row->least ? "at least " : "at most ";
+    const char *how = row->least == row->most    ? ""
+                      : call->count < row->least ? "at least "
+                                                 : "at most ";
     int wanted = call->count < row->least ? row->least : row->most;
     return parser_error(call->parser, call->at,
                         "%s takes %s%d argument%s, %d given", row->word, how,
@@ -571,28 +579,30 @@ static bool count_fits(const struct call *call, const struct builtin *row)
 }
 
 /* Converts one argument; false: it is of the wrong kind, reported. */
-static bool convert(const struct call *call, int i, char kind,
-                    struct value *to)
+static bool convert(const struct call *call, int i, char kind, struct value *to)
 {
     static const struct {
         char kind;
         const char *name;
-    } names[] = {{'f', "a float"}, {'v', "a vector"}, {'n', "a number"},
+    } names[] = {{'f', "a float"},
+                 {'v', "a vector"},
+                 {'n', "a number"},
                  {'s', "a string"}};
     const struct value *value = &call->argument[i];
     bool number = value->kind == VALUE_NUMBER;
-    bool fits = kind == 's' ? !number : number
-        && (kind == 'n' || value->terms <= (kind == 'f' ? 1 : 3)
-            || (kind == 'v' && value->terms == VALUE_TERMS));
+    bool fits = kind == 's'
+                    ? !number
+                    : number && (kind == 'n' ||
+                                 value->terms <= (kind == 'f' ? 1 : 3) ||
+                                 (kind == 'v' && value->terms == VALUE_TERMS));
     const char *wanted = "";
     for (int j = 0; j < 4; j++) {
         wanted = names[j].kind == kind ? names[j].name : wanted;
     }
     *to = kind == 'v' && number ? value_promote(*value, 3) : *value;
     return fits || parser_error(call->parser, call->at,
-                                "argument %d of %s must be %s, not a %s",
-                                i + 1, call->word, wanted,
-                                value_name(value));
+                                "argument %d of %s must be %s, not a %s", i + 1,
+                                call->word, wanted, value_name(value));
 }
 
 /* The arguments lie on the parser's stack, where they may be changed until
@@ -615,5 +625,5 @@ struct value builtin_call(struct parser *parser, const struct name *function,
         kind += kind[1] != 0;
     }
     return row->plain ? value_float(row->plain(argument[0].v[0]))
-        : row->run(&call);
+                      : row->run(&call);
 }

@@ -13,8 +13,8 @@ static bool open_files(struct console *c, struct brume_error *err)
             continue;
         c->file[i] = fopen(path, c->options->append ? "a" : "w");
         if (!c->file[i])
-            return brume_fail(err, BRUME_ERR_FILE, "can't open '%s': %s",
-                              path, strerror(errno));
+            return brume_fail(err, BRUME_ERR_FILE, "can't open '%s': %s", path,
+                              strerror(errno));
     }
     return true;
 }
@@ -34,7 +34,9 @@ bool console_open(struct console *console, const struct options *options,
                   FILE *to, bool terminal, struct brume_error *err)
 {
     *console = (struct console){
-        .options = options, .to = to, .terminal = terminal,
+        .options = options,
+        .to = to,
+        .terminal = terminal,
     };
     progress_init(&console->progress, progress_mode(options, terminal),
                   fileno(to));
@@ -127,7 +129,7 @@ void console_diag(struct console *console, const struct diag *diag)
     int count = more > 0 ? targets(console, OPTIONS_WARNING, to) : 0;
     for (int i = 0; i < count; i++)
         fprintf(to[i], "%d more warnings\n", more);
-    if (diag->errors > 0 && !diag->first)   /* memory ran out */
+    if (diag->errors > 0 && !diag->first) /* memory ran out */
         fputs("error: out of memory\n", console->to);
 }
 
@@ -147,15 +149,16 @@ void console_progress(struct console *console,
     char stage[64];
     snprintf(stage, sizeof stage, "%s%s", console->frame, progress->stage);
     struct progress_report report = {
-        .stage = stage, .fraction = progress->fraction,
-        .items = progress->rate * progress->seconds, .unit = progress->item,
+        .stage = stage,
+        .fraction = progress->fraction,
+        .items = progress->rate * progress->seconds,
+        .unit = progress->item,
     };
     progress_update(&console->progress, &report);
 }
 
 /* Told on a terminal, or when +V asks for it. */
-void console_finished(struct console *console,
-                      const struct reel_record *record)
+void console_finished(struct console *console, const struct reel_record *record)
 {
     const struct options *o = console->options;
     bool wanted = o->has_verbose ? o->verbose : console->terminal;

@@ -4,10 +4,10 @@
 #include <string.h>
 
 enum {
-    DIAG_MEMORY = 16 << 20,     /* of the list                             */
+    DIAG_MEMORY = 16 << 20, /* of the list                             */
     WARNINGS = 100,
     TAB = 8,
-    WIDTH = 72                  /* columns of a source line that are shown */
+    WIDTH = 72 /* columns of a source line that are shown */
 };
 
 void diag_init(struct diag *diag)
@@ -71,8 +71,8 @@ bool diag_error(struct diag *diag, enum brume_code code, const char *format,
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    diag_add(diag, &(struct diag_item){.severity = DIAG_ERROR, .code = code,
-                                       .text = text});
+    diag_add(diag, &(struct diag_item){
+                       .severity = DIAG_ERROR, .code = code, .text = text});
     return false;
 }
 
@@ -101,8 +101,7 @@ void diag_write(const struct diag *diag, FILE *to)
         diag_write_item(i, to);
     }
     if (diag->warnings > diag->warning_limit) {
-        fprintf(to, "%d more warnings\n",
-                diag->warnings - diag->warning_limit);
+        fprintf(to, "%d more warnings\n", diag->warnings - diag->warning_limit);
     }
 }
 

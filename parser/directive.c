@@ -3,15 +3,16 @@
 #include "parser/report.h"
 #include <string.h>
 
-
 /* ---- #declare, #local, #undef ------------------------------------------ */
 
 static bool may_declare(struct expander *expander, const struct name *name,
                         struct location at)
 {
-    return !name->symbol || !name->symbol->constant
-        || parser_error(expander->parser, at, "'%s' is built in and cannot "
-                        "be declared", name->text);
+    return !name->symbol || !name->symbol->constant ||
+           parser_error(expander->parser, at,
+                        "'%s' is built in and cannot "
+                        "be declared",
+                        name->text);
 }
 
 /* The '=' and the value of what is declared; NULL: an error. */
@@ -19,16 +20,17 @@ static struct pending *begin_value(struct expander *expander,
                                    struct location at)
 {
     return expand_need(expander, '=')
-        ? expand_begin(expander, TOK_MODE_VALUE, USE_DECLARE, at) : NULL;
+               ? expand_begin(expander, TOK_MODE_VALUE, USE_DECLARE, at)
+               : NULL;
 }
 
 /* Takes a reserved word that has no token of its own. */
 static bool take_word(struct expander *expander, const char *word)
 {
     const struct token *token = expand_peek(expander);
-    return token->kind == TOK_UNSUPPORTED
-        && strcmp(token->name->text, word) == 0
-        && expand_take(expander, TOK_UNSUPPORTED);
+    return token->kind == TOK_UNSUPPORTED &&
+           strcmp(token->name->text, word) == 0 &&
+           expand_take(expander, TOK_UNSUPPORTED);
 }
 
 /* `deprecated once "text"`, of which all may be left out but the first. */
@@ -83,9 +85,9 @@ static bool declare(struct expander *expander, const struct token *token)
         struct value *array = symbols_find(name);
         struct seek seek = {.item = array, .use = ITEM_DECLARE};
         return array && array->kind == VALUE_ARRAY
-            ? item_seek(expander, &seek, at)
-            : parser_error(expander->parser, at, "'%.40s' is not an array",
-                           name->text);
+                   ? item_seek(expander, &seek, at)
+                   : parser_error(expander->parser, at,
+                                  "'%.40s' is not an array", name->text);
     }
     struct pending *pending = begin_value(expander, at);
     if (!pending) {
@@ -127,7 +129,8 @@ static bool check_semicolon(struct expander *expander,
     }
     return parser_fail(parser, BRUME_ERR_SCENE, expander->place,
                        "floats, vectors and colors are declared with ';' "
-                       "behind them", "expected ';' after this value");
+                       "behind them",
+                       "expected ';' after this value");
 }
 
 static bool finish_declare(struct expander *expander,
@@ -137,8 +140,10 @@ static bool finish_declare(struct expander *expander,
     struct value *item = pending->target.item;
     if (!item) {
         struct symbol *symbol = pending->target.local
-            ? symbols_local(symbols, pending->target.name)
-            : symbols_declare(symbols, pending->target.name);
+                                    ? symbols_local(symbols,
+                                                    pending->target.name)
+                                    : symbols_declare(symbols,
+                                                      pending->target.name);
         if (!symbol) {
             return report_no_memory(expander->parser);
         }
@@ -178,21 +183,20 @@ static bool include(struct expander *expander, const struct pending *pending)
     struct frame frame = {.called = pending->at};
     frame.source = source_open(parser, expander->place,
                                expander->result.string);
-    return frame.source
-        && (symbols_enter(&parser->symbols) || report_no_memory(parser))
-        && expand_enter(expander, &frame);
+    return frame.source &&
+           (symbols_enter(&parser->symbols) || report_no_memory(parser)) &&
+           expand_enter(expander, &frame);
 }
 
 static bool set_version(struct expander *expander)
 {
     struct parser *parser = expander->parser;
     const struct value *value = &expander->result;
-    struct symbol *symbol = symbols_name(&parser->symbols, "version", 7)
-        ->symbol;
+    struct symbol *symbol =
+        symbols_name(&parser->symbols, "version", 7)->symbol;
     if (value->kind != VALUE_NUMBER || value->terms != 1) {
         return parser_error(parser, expander->place,
-                            "expected a float, found a %s",
-                            value_name(value));
+                            "expected a float, found a %s", value_name(value));
     }
     parser->version = value->v[0];
     symbol->value = *value;
@@ -204,10 +208,9 @@ static bool set_version(struct expander *expander)
 
 static bool message(struct expander *expander, const struct pending *pending)
 {
-    static const enum parse_stream stream[] = {
-        [USE_DEBUG] = PARSE_DEBUG, [USE_WARNING] = PARSE_WARNING,
-        [USE_ERROR] = PARSE_ERROR
-    };
+    static const enum parse_stream stream[] = {[USE_DEBUG] = PARSE_DEBUG,
+                                               [USE_WARNING] = PARSE_WARNING,
+                                               [USE_ERROR] = PARSE_ERROR};
     struct parser *parser = expander->parser;
     const struct parse_input *in = parser->in;
     struct string text = expander->result.string;
@@ -220,8 +223,8 @@ static bool message(struct expander *expander, const struct pending *pending)
     if (pending->use == USE_WARNING) {
         parser_warn(parser, pending->at, "%.*s", (int)text.length, text.text);
     }
-    return pending->use != USE_ERROR
-        || parser_error(parser, pending->at, "%.*s", (int)text.length,
+    return pending->use != USE_ERROR ||
+           parser_error(parser, pending->at, "%.*s", (int)text.length,
                         text.text);
 }
 
@@ -232,7 +235,8 @@ bool directive_run_bare(struct expander *expander, const struct token *token)
     static const struct {
         const char *word;
         uint16_t kind;
-    } bare[] = {{"declare", TOK_HASH_DECLARE}, {"default", TOK_HASH_DEFAULT},
+    } bare[] = {{"declare", TOK_HASH_DECLARE},
+                {"default", TOK_HASH_DEFAULT},
                 {"include", TOK_HASH_INCLUDE}};
     for (size_t i = 0; i < sizeof bare / sizeof *bare; i++) {
         if (strcmp(token->name->text, bare[i].word) == 0) {
@@ -279,8 +283,7 @@ bool directive_run(struct expander *expander, const struct token *token)
     }
 }
 
-bool directive_finish(struct expander *expander,
-                      const struct pending *pending)
+bool directive_finish(struct expander *expander, const struct pending *pending)
 {
     switch (pending->use) {
     case USE_DECLARE:

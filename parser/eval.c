@@ -27,8 +27,7 @@ struct value eval_binary(struct parser *parser, int op, const struct value *a,
     return result;
 }
 
-struct value eval_compare(int op, const struct value *a,
-                          const struct value *b)
+struct value eval_compare(int op, const struct value *a, const struct value *b)
 {
     struct value order = value_float(
         value_compare_strings(a->string, b->string));
@@ -51,10 +50,9 @@ struct value eval_component(struct parser *parser, const struct value *value,
     static const struct {
         const char *word;
         int index;
-    } names[] = {
-        {"x", 0}, {"u", 0}, {"red", 0}, {"y", 1}, {"v", 1}, {"green", 1},
-        {"z", 2}, {"blue", 2}, {"t", 3}, {"filter", 3}, {"transmit", 4}
-    };
+    } names[] = {{"x", 0}, {"u", 0},      {"red", 0},     {"y", 1},
+                 {"v", 1}, {"green", 1},  {"z", 2},       {"blue", 2},
+                 {"t", 3}, {"filter", 3}, {"transmit", 4}};
     if (strcmp(component->text, "gray") == 0) {
         struct value c = value_promote(*value, 3);
         return value_float(0.297 * c.v[0] + 0.589 * c.v[1] + 0.114 * c.v[2]);
@@ -121,7 +119,8 @@ struct value eval_call(struct parser *parser, const struct name *function,
     }
     bool string = function->keyword->kind == TOK_STRING_FUNCTION;
     return !parser->failed ? result
-        : string ? value_string("", 0) : value_float(0);
+           : string        ? value_string("", 0)
+                           : value_float(0);
 }
 
 /* ---- colors ------------------------------------------------------------ */
@@ -143,11 +142,11 @@ struct color eval_color_rgb(struct parser *parser, const struct name *word,
     const char *rest = word->text + (srgb ? 4 : 3);
     int terms = 3 + (int)strlen(rest);
     if (value->terms > terms) {
-        parser_warn(parser, at, "%s takes %d terms, %d were given",
-                    word->text, terms, value->terms);
+        parser_warn(parser, at, "%s takes %d terms, %d were given", word->text,
+                    terms, value->terms);
     }
-    struct value v = value_promote(*value, value->terms > terms
-                                   ? value->terms : terms);
+    struct value v = value_promote(*value,
+                                   value->terms > terms ? value->terms : terms);
     for (int i = 0; i < 3; i++) {
         color.v[i] = srgb ? linear(v.v[i]) : v.v[i];
     }
@@ -216,8 +215,8 @@ struct value eval_list(struct parser *parser, int count)
         return value_float(0);
     }
     memcpy(copy, item, (size_t)count * sizeof *copy);
-    *value.array = (struct array){.rank = 1, .count = (uint32_t)count,
-                                  .item = copy, .list = true};
+    *value.array = (struct array){
+        .rank = 1, .count = (uint32_t)count, .item = copy, .list = true};
     value.array->size[0] = (uint32_t)count;
     return value;
 }
@@ -225,21 +224,23 @@ struct value eval_list(struct parser *parser, int count)
 /* Copies a list of lists into the items of an array from dimension `depth`
  * on; the depth is at most VALUE_RANK. */
 static bool fill(struct parser *parser, const struct array *array, int depth,
-                 const struct value *from, struct value *to,
-                 struct location at)
+                 const struct value *from, struct value *to, struct location at)
 {
     uint32_t count = array->size[depth], step = 1;
     for (int i = depth + 1; i < array->rank; i++) {
         step *= array->size[i];
     }
     if (from->kind != VALUE_ARRAY || !from->array->list) {
-        return parser_error(parser, at, "dimension %d of the array needs a "
-                            "list in braces", depth + 1);
+        return parser_error(parser, at,
+                            "dimension %d of the array needs a "
+                            "list in braces",
+                            depth + 1);
     }
     if (from->array->count != count) {
-        return parser_error(parser, at, "dimension %d of the array has %u "
-                            "items, not %u", depth + 1, count,
-                            from->array->count);
+        return parser_error(parser, at,
+                            "dimension %d of the array has %u "
+                            "items, not %u",
+                            depth + 1, count, from->array->count);
     }
     for (uint32_t i = 0; i < count; i++) {
         const struct value *item = &from->array->item[i];
@@ -248,8 +249,10 @@ static bool fill(struct parser *parser, const struct array *array, int depth,
                 return false;
             }
         } else if (item->kind == VALUE_ARRAY && item->array->list) {
-            return parser_error(parser, at, "the array has %d dimensions, "
-                                "the list has more", array->rank);
+            return parser_error(parser, at,
+                                "the array has %d dimensions, "
+                                "the list has more",
+                                array->rank);
         } else {
             to[i] = *item;
         }
@@ -270,14 +273,15 @@ static bool set_sizes(struct parser *parser, struct array *array, int rank,
     for (int i = 0; i < rank; i++) {
         double whole = trunc(size[i].v[0]);
         if (!(whole >= 1)) {
-            return parser_error(parser, at, "size %g of dimension %d is less "
-                                "than 1", size[i].v[0], i + 1);
+            return parser_error(parser, at,
+                                "size %g of dimension %d is less "
+                                "than 1",
+                                size[i].v[0], i + 1);
         }
         count *= whole;
         if (count > UINT32_MAX) {
             return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
-                               "the array has %g items, more than 2^32",
-                               count);
+                               "the array has %g items, more than 2^32", count);
         }
         array->size[i] = (uint32_t)whole;
     }
@@ -294,8 +298,8 @@ struct value eval_array(struct parser *parser, int rank,
         return value_float(0);
     }
     array->item = parser_array(parser, array->count, sizeof *array->item);
-    if (!array->item
-        || (list && !fill(parser, array, 0, list, array->item, at))) {
+    if (!array->item ||
+        (list && !fill(parser, array, 0, list, array->item, at))) {
         return value_float(0);
     }
     return value;

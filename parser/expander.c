@@ -49,8 +49,7 @@ static void leave_text(struct expander *expander)
     symbols_leave(&expander->parser->symbols);
 }
 
-bool expand_return(struct expander *expander, size_t frames,
-                   struct location at)
+bool expand_return(struct expander *expander, size_t frames, struct location at)
 {
     while (expander->frames > frames) {
         int kind = expand_peek(expander)->kind;
@@ -59,7 +58,8 @@ bool expand_return(struct expander *expander, size_t frames,
         } else if (kind == TOK_END) {
             leave_text(expander);
         } else {
-            return parser_error(expander->parser, at, "the directive's value "
+            return parser_error(expander->parser, at,
+                                "the directive's value "
                                 "must end in the text where it begins");
         }
     }
@@ -73,19 +73,18 @@ static struct scene_yypstate *take_parser(struct expander *expander)
     }
     struct scene_yypstate *state = scene_yypstate_new();
     if (!state) {
-        parser_fail(expander->parser, BRUME_ERR_MEMORY, expander->place,
-                    NULL, "out of memory");
+        parser_fail(expander->parser, BRUME_ERR_MEMORY, expander->place, NULL,
+                    "out of memory");
     }
     return state;
 }
 
 /* Keeps a parser for the next value; a finished one begins anew. */
-static void give_parser(struct expander *expander,
-                        struct scene_yypstate *state)
+static void give_parser(struct expander *expander, struct scene_yypstate *state)
 {
     struct scene_yypstate **grown = expand_grow(
-        expander, expander->spare, &expander->spare_room,
-        expander->spares + 1, sizeof *grown);
+        expander, expander->spare, &expander->spare_room, expander->spares + 1,
+        sizeof *grown);
     if (!grown) {
         scene_yypstate_delete(state);
         return;
@@ -94,30 +93,32 @@ static void give_parser(struct expander *expander,
     grown[expander->spares++] = state;
 }
 
-struct pending *expand_begin(struct expander *expander, int mode,
-                             enum use use, struct location at)
+struct pending *expand_begin(struct expander *expander, int mode, enum use use,
+                             struct location at)
 {
     struct parser *parser = expander->parser;
     if (expander->pendings >= PENDING_DEPTH) {
-        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "values are nested "
-                    "deeper than %d", PENDING_DEPTH);
+        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                    "values are nested "
+                    "deeper than %d",
+                    PENDING_DEPTH);
         return NULL;
     }
     struct pending *grown = expand_grow(expander, expander->pending,
                                         &expander->pending_room,
-                                        expander->pendings + 1,
-                                        sizeof *grown);
+                                        expander->pendings + 1, sizeof *grown);
     struct scene_yypstate *state = grown ? take_parser(expander) : NULL;
     if (!state) {
         return NULL;
     }
     expander->pending = grown;
     struct pending *pending = &grown[expander->pendings++];
-    *pending = (struct pending){
-        .use = use, .state = state, .at = at, .frames = expander->frames,
-        .start = expand_frame(expander)->next,
-        .open_ended = mode == TOK_MODE_VALUE
-    };
+    *pending = (struct pending){.use = use,
+                                .state = state,
+                                .at = at,
+                                .frames = expander->frames,
+                                .start = expand_frame(expander)->next,
+                                .open_ended = mode == TOK_MODE_VALUE};
     SCENE_YYSTYPE none = {.count = 0};
     scene_yypush_parse(state, mode, &none, &at, parser);
     return pending;
@@ -148,8 +149,13 @@ static bool finish(struct expander *expander)
         return item_finish(expander, &done);
     case USE_ARGUMENT:
         return macro_argument(expander, &expander->result, NULL);
-    case USE_IF: case USE_ELSEIF: case USE_WHILE: case USE_SWITCH:
-    case USE_CASE: case USE_RANGE: case USE_FOR:
+    case USE_IF:
+    case USE_ELSEIF:
+    case USE_WHILE:
+    case USE_SWITCH:
+    case USE_CASE:
+    case USE_RANGE:
+    case USE_FOR:
         return branch_finish(expander, &done);
     default:
         return directive_finish(expander, &done);
@@ -165,11 +171,13 @@ bool expand_tick(struct expander *expander, struct location at)
         return true;
     }
     if (in->stopped && in->stopped(in->user)) {
-        return parser_fail(parser, BRUME_STOPPED, at, NULL, "stopped while "
+        return parser_fail(parser, BRUME_STOPPED, at, NULL,
+                           "stopped while "
                            "reading the scene");
     }
     if (expander->deadline > 0 && timer_seconds() > expander->deadline) {
-        return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "reading the "
+        return parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                           "reading the "
                            "scene takes longer than %g s",
                            parser->limits.seconds);
     }
@@ -211,13 +219,12 @@ static bool push(struct expander *expander, int kind,
         expander->place = at;
     }
     count_brackets(pending, kind);
-    int status = scene_yypush_parse(pending->state, kind, meaning, &at,
-                                    parser);
+    int status = scene_yypush_parse(pending->state, kind, meaning, &at, parser);
     if (parser->failed || status == YYPUSH_MORE) {
         return !parser->failed;
     }
     return status == ACCEPTED ? finish(expander)
-        : parser_error(parser, at, "syntax error");
+                              : parser_error(parser, at, "syntax error");
 }
 
 static bool push_end(struct expander *expander)
@@ -241,20 +248,27 @@ void expand_hold(struct expander *expander, const struct value *value,
 static int kind_of(const struct value *value)
 {
     static const uint16_t kinds[VALUE_KINDS] = {
-        [VALUE_NONE] = TOK_IDENTIFIER, [VALUE_STRING] = TOK_STRING_ID,
-        [VALUE_ARRAY] = TOK_ARRAY_ID, [VALUE_MACRO] = TOK_MACRO_ID,
-        [VALUE_OBJECT] = TOK_OBJECT_ID, [VALUE_TEXTURE] = TOK_TEXTURE_ID,
-        [VALUE_PIGMENT] = TOK_PIGMENT_ID, [VALUE_NORMAL] = TOK_NORMAL_ID,
-        [VALUE_FINISH] = TOK_FINISH_ID, [VALUE_COLOR_MAP] = TOK_MAP_ID,
+        [VALUE_NONE] = TOK_IDENTIFIER,
+        [VALUE_STRING] = TOK_STRING_ID,
+        [VALUE_ARRAY] = TOK_ARRAY_ID,
+        [VALUE_MACRO] = TOK_MACRO_ID,
+        [VALUE_OBJECT] = TOK_OBJECT_ID,
+        [VALUE_TEXTURE] = TOK_TEXTURE_ID,
+        [VALUE_PIGMENT] = TOK_PIGMENT_ID,
+        [VALUE_NORMAL] = TOK_NORMAL_ID,
+        [VALUE_FINISH] = TOK_FINISH_ID,
+        [VALUE_COLOR_MAP] = TOK_MAP_ID,
         [VALUE_MATERIAL] = TOK_MATERIAL_ID,
-        [VALUE_INTERIOR] = TOK_INTERIOR_ID, [VALUE_MEDIA] = TOK_MEDIA_ID,
+        [VALUE_INTERIOR] = TOK_INTERIOR_ID,
+        [VALUE_MEDIA] = TOK_MEDIA_ID,
         [VALUE_DENSITY] = TOK_DENSITY_ID,
         [VALUE_TRANSFORM] = TOK_TRANSFORM_ID,
-        [VALUE_CAMERA] = TOK_CAMERA_ID, [VALUE_LIGHT] = TOK_LIGHT_ID
-    };
+        [VALUE_CAMERA] = TOK_CAMERA_ID,
+        [VALUE_LIGHT] = TOK_LIGHT_ID};
     if (value->kind == VALUE_NUMBER) {
-        return value->terms == 1 ? TOK_FLOAT_ID
-            : value->terms == VALUE_TERMS ? TOK_COLOR_ID : TOK_VECTOR_ID;
+        return value->terms == 1             ? TOK_FLOAT_ID
+               : value->terms == VALUE_TERMS ? TOK_COLOR_ID
+                                             : TOK_VECTOR_ID;
     }
     return kinds[value->kind];
 }
@@ -320,8 +334,8 @@ static bool unexpected(struct expander *expander, const char *wanted)
 
 bool expand_need(struct expander *expander, int kind)
 {
-    return expand_take(expander, kind)
-        || unexpected(expander, grammar_token_name(kind));
+    return expand_take(expander, kind) ||
+           unexpected(expander, grammar_token_name(kind));
 }
 
 struct name *expand_need_name(struct expander *expander)
@@ -330,8 +344,7 @@ struct name *expand_need_name(struct expander *expander)
     if (expand_take(expander, TOK_IDENTIFIER)) {
         return token->name;
     }
-    const char *word = report_spelling(expander->parser,
-                                       token_location(token));
+    const char *word = report_spelling(expander->parser, token_location(token));
     if (isalpha((unsigned char)*word) && token->kind != TOK_END) {
         parser_error(expander->parser, token_location(token),
                      "expected a name, but '%s' is a reserved word", word);
@@ -366,10 +379,14 @@ static bool leaves_value(const struct expander *expander,
                          const struct token *token)
 {
     switch (token->kind) {
-    case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
-    case TOK_HASH_CASE: case TOK_HASH_RANGE: case TOK_HASH_BREAK:
-        return expander->frames == pending->frames
-            && token->block.pair < pending->start;
+    case TOK_HASH_ELSE:
+    case TOK_HASH_ELSEIF:
+    case TOK_HASH_END:
+    case TOK_HASH_CASE:
+    case TOK_HASH_RANGE:
+    case TOK_HASH_BREAK:
+        return expander->frames == pending->frames &&
+               token->block.pair < pending->start;
     default:
         return false;
     }
@@ -383,24 +400,31 @@ static bool directive_ends(const struct expander *expander,
                            const struct token *token)
 {
     switch (token->kind) {
-    case TOK_HASH_IF: case TOK_HASH_IFDEF: case TOK_HASH_IFNDEF:
-    case TOK_HASH_SWITCH: case TOK_HASH_WHILE: case TOK_HASH_FOR:
+    case TOK_HASH_IF:
+    case TOK_HASH_IFDEF:
+    case TOK_HASH_IFNDEF:
+    case TOK_HASH_SWITCH:
+    case TOK_HASH_WHILE:
+    case TOK_HASH_FOR:
         return !directive_strict(expander) || !goes_on(pending);
-    case TOK_HASH_ELSE: case TOK_HASH_ELSEIF: case TOK_HASH_END:
-    case TOK_HASH_CASE: case TOK_HASH_RANGE: case TOK_HASH_BREAK:
+    case TOK_HASH_ELSE:
+    case TOK_HASH_ELSEIF:
+    case TOK_HASH_END:
+    case TOK_HASH_CASE:
+    case TOK_HASH_RANGE:
+    case TOK_HASH_BREAK:
         return leaves_value(expander, pending, token);
     default:
         return true;
     }
 }
 
-static bool name_fits(const struct pending *pending,
-                      const struct token *token)
+static bool name_fits(const struct pending *pending, const struct token *token)
 {
     const struct value *value = symbols_find(token->name);
     return value ? accepts(pending, kind_of(value))
-        : token->name->keyword
-        && accepts(pending, token->name->keyword->kind);
+                 : token->name->keyword &&
+                       accepts(pending, token->name->keyword->kind);
 }
 
 /* Whether the value is complete and the next token no part of it. */
@@ -411,8 +435,8 @@ static bool value_ends(const struct expander *expander,
     int kind = token->kind;
     bool directive = is_directive(kind);
     if (expander->held) {
-        return !accepts(pending, kind_of(&expander->hold_value))
-            && accepts(pending, TOK_END);
+        return !accepts(pending, kind_of(&expander->hold_value)) &&
+               accepts(pending, TOK_END);
     }
     if (kind == TOK_BAD) {
         return false;
@@ -420,12 +444,13 @@ static bool value_ends(const struct expander *expander,
     if (kind == TOK_END && expander->frames > pending->frames) {
         return false;
     }
-    if (!directive && (kind == TOK_IDENTIFIER ? name_fits(pending, token)
-                       : kind != TOK_END && accepts(pending, kind))) {
+    if (!directive &&
+        (kind == TOK_IDENTIFIER ? name_fits(pending, token)
+                                : kind != TOK_END && accepts(pending, kind))) {
         return false;
     }
-    return accepts(pending, TOK_END)
-        && (!directive || directive_ends(expander, pending, token));
+    return accepts(pending, TOK_END) &&
+           (!directive || directive_ends(expander, pending, token));
 }
 
 /* ---- the loop ---------------------------------------------------------- */
@@ -448,15 +473,14 @@ static bool run_end(struct expander *expander)
 }
 
 /* A value that began within a block must end there. */
-static bool run_directive(struct expander *expander,
-                          const struct token *token)
+static bool run_directive(struct expander *expander, const struct token *token)
 {
     const struct pending *pending = innermost(expander);
     return leaves_value(expander, pending, token)
-        ? parser_error(expander->parser, token_location(token),
-                       "%s comes in the middle of a value",
-                       grammar_token_name(token->kind))
-        : directive_run(expander, token);
+               ? parser_error(expander->parser, token_location(token),
+                              "%s comes in the middle of a value",
+                              grammar_token_name(token->kind))
+               : directive_run(expander, token);
 }
 
 static bool run_token(struct expander *expander)
@@ -483,12 +507,11 @@ static bool run_token(struct expander *expander)
         value = value_string(token->string->text, token->string->length);
         break;
     case TOK_DEFINED:
-        return item_defined(expander, ITEM_DEFINED, 0,
-                            token_location(token));
+        return item_defined(expander, ITEM_DEFINED, 0, token_location(token));
     default:
         return is_directive(token->kind)
-            ? run_directive(expander, token)
-            : push_word(expander, token->kind, token);
+                   ? run_directive(expander, token)
+                   : push_word(expander, token->kind, token);
     }
     SCENE_YYSTYPE meaning = {.value = value};
     return push(expander, token->kind, &meaning, token_location(token));
@@ -497,8 +520,8 @@ static bool run_token(struct expander *expander)
 static bool step(struct expander *expander)
 {
     const struct pending *pending = innermost(expander);
-    if (pending->open_ended && pending->depth == 0
-        && value_ends(expander, pending)) {
+    if (pending->open_ended && pending->depth == 0 &&
+        value_ends(expander, pending)) {
         return push_end(expander);
     }
     return expander->held ? run_held(expander) : run_token(expander);
@@ -507,8 +530,7 @@ static bool step(struct expander *expander)
 static void release(struct expander *expander)
 {
     while (expander->pendings > 0) {
-        scene_yypstate_delete(
-            expander->pending[--expander->pendings].state);
+        scene_yypstate_delete(expander->pending[--expander->pendings].state);
     }
     while (expander->spares > 0) {
         scene_yypstate_delete(expander->spare[--expander->spares]);
@@ -521,19 +543,20 @@ static bool enter_scene(struct expander *expander)
 {
     struct parser *parser = expander->parser;
     struct frame scene = {.source = source_open_scene(parser)};
-    if (!scene.source || !expand_enter(expander, &scene)
-        || !expand_begin(expander, TOK_MODE_SCENE, USE_NONE,
-                         (struct location){0})) {
+    if (!scene.source || !expand_enter(expander, &scene) ||
+        !expand_begin(expander, TOK_MODE_SCENE, USE_NONE,
+                      (struct location){0})) {
         return false;
     }
     if (!parser->in->header) {
         return true;
     }
-    struct frame header = {.source = source_open_path(
-        parser, (struct location){0}, parser->in->header)};
-    return header.source
-        && (symbols_enter(&parser->symbols) || report_no_memory(parser))
-        && expand_enter(expander, &header);
+    struct frame header = {.source = source_open_path(parser,
+                                                      (struct location){0},
+                                                      parser->in->header)};
+    return header.source &&
+           (symbols_enter(&parser->symbols) || report_no_memory(parser)) &&
+           expand_enter(expander, &header);
 }
 
 bool expander_run(struct parser *parser)
@@ -556,7 +579,7 @@ bool expander_run(struct parser *parser)
 struct location expander_place(const struct parser *parser)
 {
     return parser->expander ? parser->expander->place
-        : (struct location){0, UINT32_MAX};
+                            : (struct location){0, UINT32_MAX};
 }
 
 uint64_t expander_tokens(const struct parser *parser)
@@ -574,8 +597,8 @@ void expander_call(const struct parser *parser, int depth,
                    struct expander_call *call)
 {
     const struct expander *expander = parser->expander;
-    const struct frame *frame
-        = &expander->frame[expander->frames - 1 - (size_t)depth];
+    const struct frame *frame =
+        &expander->frame[expander->frames - 1 - (size_t)depth];
     call->at = frame->called;
     call->macro = frame->macro ? frame->macro->name->text : NULL;
 }

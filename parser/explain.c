@@ -7,7 +7,7 @@ enum { WIDTH = 79 };
 
 const char *explain_bytes(uint64_t bytes, char *out, size_t size)
 {
-    static const char *const units[] = { "B", "KiB", "MiB", "GiB", "TiB" };
+    static const char *const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
     double value = (double)bytes;
     size_t unit = 0;
     while (value >= 999.5 && unit + 1 < sizeof units / sizeof *units) {
@@ -45,10 +45,9 @@ void explain_text(const struct brume_plan *plan, FILE *to)
     for (int i = 0; i < plan->stages; i++) {
         const struct brume_stage *s = &plan->stage[i];
         char bytes[32];
-        int indent = fprintf(to, "%-11s %-4s %9s  ", s->name,
-                             s->runs ? "yes" : "no",
-                             s->runs ? explain_bytes(s->bytes, bytes,
-                                                     sizeof bytes) : "-");
+        int indent = fprintf(
+            to, "%-11s %-4s %9s  ", s->name, s->runs ? "yes" : "no",
+            s->runs ? explain_bytes(s->bytes, bytes, sizeof bytes) : "-");
         wrap(s->reason, indent, to);
     }
     for (int i = 0; i < plan->notes; i++) {

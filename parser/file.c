@@ -15,9 +15,9 @@ struct search {
     struct parser *parser;
     struct string name;
     enum parser_purpose purpose;
-    bool exact;                 /* no extension is added                   */
+    bool exact; /* no extension is added                   */
     const char *found;
-    const char *denied;         /* the first that is there but off limits  */
+    const char *denied; /* the first that is there but off limits  */
     char tried[600];
     size_t used;
 };
@@ -69,10 +69,10 @@ static bool permitted(const struct search *search, const char *path)
     if (search->purpose == PARSER_DATA) {
         return true;
     }
-    return realpath(path, real)
-        && (lies_in(real, text_folder(parser, 0))
-            || lies_in_any(real, in->library, in->libraries)
-            || lies_in_any(real, in->allow_read, in->allow_reads));
+    return realpath(path, real) &&
+           (lies_in(real, text_folder(parser, 0)) ||
+            lies_in_any(real, in->library, in->libraries) ||
+            lies_in_any(real, in->allow_read, in->allow_reads));
 }
 
 /* ---- search ------------------------------------------------------------ */
@@ -120,8 +120,8 @@ static void try_path(struct search *search, const char *folder,
 static void try_folder(struct search *search, const char *folder)
 {
     const char *last = strrchr(search->name.text, '/');
-    bool plain = !search->exact
-        && !strchr(last ? last : search->name.text, '.');
+    bool plain = !search->exact &&
+                 !strchr(last ? last : search->name.text, '.');
     if (!search->found) {
         try_path(search, folder, "");
     }
@@ -157,8 +157,8 @@ static void try_all(struct search *search, const char *around)
 
 static bool name_is_sound(struct string name)
 {
-    return name.length > 0 && name.length < PATH_MAX
-        && !memchr(name.text, 0, name.length);
+    return name.length > 0 && name.length < PATH_MAX &&
+           !memchr(name.text, 0, name.length);
 }
 
 static void report_missing(const struct search *search, struct location at)
@@ -168,23 +168,24 @@ static void report_missing(const struct search *search, struct location at)
         snprintf(hint, sizeof hint, "give its folder with --allow-read");
         parser_fail(search->parser, BRUME_ERR_ACCESS, at, hint,
                     "reading '%s' is not allowed: it is neither in the "
-                    "scene's folder nor on the library path", search->denied);
+                    "scene's folder nor on the library path",
+                    search->denied);
         return;
     }
     snprintf(hint, sizeof hint, "looked for %s", search->tried);
-    parser_fail(search->parser, BRUME_ERR_FILE, at, hint,
-                "file '%s' not found", search->name.text);
+    parser_fail(search->parser, BRUME_ERR_FILE, at, hint, "file '%s' not found",
+                search->name.text);
 }
 
 const char *parser_find_file(struct parser *parser, struct location at,
-                             struct string name,
-                             enum parser_purpose purpose)
+                             struct string name, enum parser_purpose purpose)
 {
-    struct search search = {.parser = parser, .name = name,
-                            .purpose = purpose};
+    struct search search = {.parser = parser, .name = name, .purpose = purpose};
     if (!name_is_sound(name)) {
-        parser_error(parser, at, "the file's name is empty, holds a NUL or "
-                     "is longer than %d bytes", PATH_MAX);
+        parser_error(parser, at,
+                     "the file's name is empty, holds a NUL or "
+                     "is longer than %d bytes",
+                     PATH_MAX);
         return NULL;
     }
     try_all(&search, text_folder(parser, at.source));
@@ -197,8 +198,8 @@ const char *parser_find_file(struct parser *parser, struct location at,
 bool parser_file_exists(struct parser *parser, struct location at,
                         struct string name)
 {
-    struct search search = {.parser = parser, .name = name,
-                            .purpose = PARSER_TEXT, .exact = true};
+    struct search search = {
+        .parser = parser, .name = name, .purpose = PARSER_TEXT, .exact = true};
     if (name_is_sound(name)) {
         try_all(&search, text_folder(parser, at.source));
     }

@@ -32,7 +32,7 @@ void frames_init(struct frames *frames, const struct options *options)
 {
     int initial = max(options->initial_frame, 0);
     int final = max(options->final_frame, initial);
-    *frames = (struct frames){ .step = 1, .digits = 1 };
+    *frames = (struct frames){.step = 1, .digits = 1};
     if (initial == final && final <= 1)
         return;
     frames->animation = true;
@@ -101,12 +101,10 @@ static bool read_side(const char *what, double from, double to, int size,
                           size);
     if (*end > size)
         return brume_fail(err, BRUME_ERR_USAGE,
-                          "end %s %g lies beyond the last, %d", what, to,
-                          size);
+                          "end %s %g lies beyond the last, %d", what, to, size);
     if (*start >= *end)
-        return brume_fail(err, BRUME_ERR_USAGE,
-                          "no %s is left from %d to %d", what, *start + 1,
-                          *end);
+        return brume_fail(err, BRUME_ERR_USAGE, "no %s is left from %d to %d",
+                          what, *start + 1, *end);
     return true;
 }
 

@@ -129,8 +129,8 @@ static bool read_quoted_value(struct ini *ini, struct arena *arena,
     if (ini->at < ini->line_end && !is_comment(*ini->at))
         return bad(ini, item, ini->at, "nothing may follow a quoted value");
     ini->at = ini->line_end;
-    return (item->value =
-                arena_copy(arena, open + 1, (size_t)(close - open - 1)));
+    return (
+        item->value = arena_copy(arena, open + 1, (size_t)(close - open - 1)));
 }
 
 static bool read_setting(struct ini *ini, struct arena *arena,
@@ -191,7 +191,7 @@ static const char *find_equals(const struct ini *ini)
 
 bool ini_next(struct ini *ini, struct arena *arena, struct ini_item *item)
 {
-    *item = (struct ini_item){ INI_END, NULL, NULL, NULL };
+    *item = (struct ini_item){INI_END, NULL, NULL, NULL};
     bool fresh;
     if (!next_text(ini, &fresh))
         return true;

@@ -4,9 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool input_read(FILE *from, const char *name, size_t limit,
-                struct arena *arena, char **text, size_t *length,
-                struct brume_error *err)
+bool input_read(FILE *from, const char *name, size_t limit, struct arena *arena,
+                char **text, size_t *length, struct brume_error *err)
 {
     void *bytes = NULL;
     size_t room = 0, used = 0;
@@ -95,7 +94,8 @@ const char *input_find(struct options *options, struct brume_error *err)
 const char *input_own_folder(struct arena *arena)
 {
     static const char *const below[] = {
-        "../share/brume/scenes/include", "../scenes/include",
+        "../share/brume/scenes/include",
+        "../scenes/include",
         "../../scenes/include",
     };
     char program[4096];

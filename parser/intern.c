@@ -30,8 +30,7 @@ int intern_find(const struct intern *table, const void *bytes, size_t size)
 static void widen(struct intern *table, struct arena *arena)
 {
     size_t buckets = table->buckets ? 4 * table->buckets : 64;
-    struct intern_entry **bucket = arena_array(arena, buckets,
-                                               sizeof *bucket);
+    struct intern_entry **bucket = arena_array(arena, buckets, sizeof *bucket);
 
     if (!bucket)
         return;

@@ -9,8 +9,8 @@
 static bool begin_index(struct expander *expander, const struct seek *seek,
                         struct location at)
 {
-    struct pending *pending = expand_begin(expander, TOK_MODE_INDEX,
-                                           USE_INDEX, at);
+    struct pending *pending = expand_begin(expander, TOK_MODE_INDEX, USE_INDEX,
+                                           at);
     if (pending) {
         pending->seek = *seek;
     }
@@ -51,8 +51,8 @@ static bool found(struct expander *expander, const struct seek *seek,
         return use_defined(expander, seek, set, at);
     case ITEM_ARGUMENT:
         return set ? macro_item(expander, seek->item, at)
-            : parser_error(expander->parser, at,
-                           "this item of the array is not set");
+                   : parser_error(expander->parser, at,
+                                  "this item of the array is not set");
     default:
         break;
     }
@@ -74,7 +74,8 @@ static bool add_index(struct expander *expander, struct seek *seek,
     double index = trunc(expander->result.v[0]);
     uint32_t size = array->size[seek->dimension];
     if (!(index >= 0 && index < size)) {
-        return parser_error(expander->parser, at, "index %g is out of range: "
+        return parser_error(expander->parser, at,
+                            "index %g is out of range: "
                             "dimension %d of the array has %u items, from 0",
                             index, seek->dimension + 1, size);
     }
@@ -86,8 +87,8 @@ static bool add_index(struct expander *expander, struct seek *seek,
 bool item_finish(struct expander *expander, const struct pending *pending)
 {
     struct seek seek = pending->seek;
-    if (!expand_return(expander, pending->frames, pending->at)
-        || !add_index(expander, &seek, pending->at)) {
+    if (!expand_return(expander, pending->frames, pending->at) ||
+        !add_index(expander, &seek, pending->at)) {
         return false;
     }
     const struct array *array = seek.item->array;
@@ -97,14 +98,14 @@ bool item_finish(struct expander *expander, const struct pending *pending)
     seek.item = &array->item[seek.offset];
     seek.dimension = 0;
     seek.offset = 0;
-    bool deeper = seek.item->kind == VALUE_ARRAY
-        && expand_peek(expander)->kind == '[';
+    bool deeper = seek.item->kind == VALUE_ARRAY &&
+                  expand_peek(expander)->kind == '[';
     return deeper ? begin_index(expander, &seek, pending->at)
-        : found(expander, &seek, pending->at);
+                  : found(expander, &seek, pending->at);
 }
 
-bool item_defined(struct expander *expander, enum item_use use,
-                  uint32_t opener, struct location at)
+bool item_defined(struct expander *expander, enum item_use use, uint32_t opener,
+                  struct location at)
 {
     if (!expand_need(expander, '(')) {
         return false;
@@ -113,8 +114,8 @@ bool item_defined(struct expander *expander, enum item_use use,
     if (!name) {
         return false;
     }
-    struct seek seek = {.item = symbols_find(name), .use = use,
-                        .opener = opener};
+    struct seek seek = {
+        .item = symbols_find(name), .use = use, .opener = opener};
     if (expand_peek(expander)->kind != '[') {
         return use_defined(expander, &seek, seek.item, at);
     }

@@ -12,12 +12,12 @@
 struct loaded_grid {
     struct loaded_grid *next;
     const char *path;
-    char name[64];              /* of the grid in the file                 */
+    char name[64]; /* of the grid in the file                 */
     enum grid_filter filter;
-    int id;                     /* in core                                 */
-    transform fit;              /* to_world's inverse, then its box to the
+    int id;        /* in core                                 */
+    transform fit; /* to_world's inverse, then its box to the
                                    unit cube                               */
-    bool empty;                 /* there is no box                         */
+    bool empty;    /* there is no box                         */
 };
 
 struct loaded_mesh {
@@ -44,8 +44,9 @@ static void widen(struct box *box, const int32_t p[3])
 static void widen_by_brick(struct box *box, const struct grid *grid,
                            int32_t slot, const int32_t corner[3])
 {
-    const float *voxel =
-        slot >= 0 ? grid->voxel + (size_t)slot * GRID_BRICK_VOXELS : NULL;
+    const float *voxel = slot >= 0
+                             ? grid->voxel + (size_t)slot * GRID_BRICK_VOXELS
+                             : NULL;
     float background = grid->tile[0];
     float tile = slot < 0 ? grid->tile[-1 - slot] : 0;
 
@@ -100,7 +101,8 @@ static void warn_of_bad(struct parser *parser, const struct build_file *file,
                         const struct grid *grid)
 {
     if (grid->bad_nan || grid->bad_inf || grid->bad_negative)
-        parser_warn(parser, file->at, "grid '%s' of '%s': %zu NaN, %zu "
+        parser_warn(parser, file->at,
+                    "grid '%s' of '%s': %zu NaN, %zu "
                     "infinite and %zu negative voxels are taken as 0",
                     grid->name, file->name.text, grid->bad_nan, grid->bad_inf,
                     grid->bad_negative);
@@ -122,23 +124,23 @@ static bool choose_grid(struct parser *parser, const struct build_file *file,
     if (!is_vdb(file))
         return true;
     if (file->grid.text && file->grid.length > 63)
-        return parser_error(parser, file->at, "the name of the grid has more "
+        return parser_error(parser, file->at,
+                            "the name of the grid has more "
                             "than 63 bytes");
     if (file->grid.text && file->grid.length > 0) {
         memcpy(name, file->grid.text, file->grid.length);
         return true;
     }
     list = vdb_list_new(path, &err);
-    const struct vdb_entry *entry =
-        list ? vdb_choose(list, role, path, &err) : NULL;
+    const struct vdb_entry *entry = list ? vdb_choose(list, role, path, &err)
+                                         : NULL;
     if (entry)
         memcpy(name, entry->name, 64);
     vdb_list_free(list);
     return entry || parser_relay(parser, file->at, &err);
 }
 
-static bool choose_filter(struct parser *parser,
-                          const struct build_file *file,
+static bool choose_filter(struct parser *parser, const struct build_file *file,
                           enum grid_filter *filter)
 {
     int interpolate = file->interpolate;
@@ -148,13 +150,14 @@ static bool choose_filter(struct parser *parser,
     *filter = interpolate == 0 ? GRID_NEAREST : GRID_TRILINEAR;
     if (interpolate <= 1)
         return true;
-    return parser_error(parser, file->at, "'interpolate %d' is not supported "
-                        "yet, 0 and 1 are", interpolate);
+    return parser_error(parser, file->at,
+                        "'interpolate %d' is not supported "
+                        "yet, 0 and 1 are",
+                        interpolate);
 }
 
 static struct loaded_grid *find_grid(struct parser *parser, const char *path,
-                                     const char *name,
-                                     enum grid_filter filter)
+                                     const char *name, enum grid_filter filter)
 {
     struct loaded_grid *known = parser->builder->loader.grids;
 
@@ -190,9 +193,8 @@ static struct loaded_grid *load_grid(struct parser *parser,
     out->path = path;
     memcpy(out->name, name, sizeof out->name);
     out->filter = filter;
-    struct grid *grid = is_vdb(file)
-        ? vdb_load(path, name, VDB_DENSITY, &err)
-        : df3_load(path, filter, &err);
+    struct grid *grid = is_vdb(file) ? vdb_load(path, name, VDB_DENSITY, &err)
+                                     : df3_load(path, filter, &err);
     if (!grid) {
         parser_relay(parser, file->at, &err);
         return NULL;
@@ -220,8 +222,10 @@ static void place_grid(struct parser *parser, const struct build_file *file,
     if (file->up_z)
         out->by = transform_then(&out->by, &swap_y_and_z);
     if (file->fit && grid->empty)
-        parser_warn(parser, file->at, "grid '%s' of '%s' is empty: there is "
-                    "nothing to fit", grid->name, file->name.text);
+        parser_warn(parser, file->at,
+                    "grid '%s' of '%s' is empty: there is "
+                    "nothing to fit",
+                    grid->name, file->name.text);
 }
 
 bool load_density(struct parser *parser, const struct build_file *file,
@@ -231,10 +235,13 @@ bool load_density(struct parser *parser, const struct build_file *file,
     char name[64];
 
     if (!is_vdb(file) && strcmp(file->format, "df3"))
-        return parser_error(parser, file->at, "density_file '%s' is not "
-                            "supported yet", file->format);
+        return parser_error(parser, file->at,
+                            "density_file '%s' is not "
+                            "supported yet",
+                            file->format);
     if (!is_vdb(file) && (file->fit || file->grid.text))
-        return parser_error(parser, file->at, "a df3 file has no grid to "
+        return parser_error(parser, file->at,
+                            "a df3 file has no grid to "
                             "name or to fit: it fills the unit cube");
     const char *path = parser_find_file(parser, file->at, file->name,
                                         PARSER_DATA);

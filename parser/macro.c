@@ -11,8 +11,10 @@ static struct name *need_free_name(struct expander *expander)
     struct location at = token_location(expand_peek(expander));
     struct name *name = expand_need_name(expander);
     if (name && name->symbol && name->symbol->constant) {
-        parser_error(expander->parser, at, "'%s' is built in and cannot be "
-                     "declared", name->text);
+        parser_error(expander->parser, at,
+                     "'%s' is built in and cannot be "
+                     "declared",
+                     name->text);
         return NULL;
     }
     return name;
@@ -53,13 +55,13 @@ static bool read_parameters(struct expander *expander, struct macro *macro)
 }
 
 /* A macro that is defined again, in a loop say, stays what it is. */
-static bool is_defined(const struct expander *expander,
-                       const struct name *name, size_t at)
+static bool is_defined(const struct expander *expander, const struct name *name,
+                       size_t at)
 {
     const struct value *value = symbols_find(name);
-    return value && value->kind == VALUE_MACRO
-        && value->macro->source == expand_frame(expander)->source
-        && value->macro->define == at;
+    return value && value->kind == VALUE_MACRO &&
+           value->macro->source == expand_frame(expander)->source &&
+           value->macro->define == at;
 }
 
 bool macro_define(struct expander *expander)
@@ -68,7 +70,8 @@ bool macro_define(struct expander *expander)
     struct frame *frame = expand_frame(expander);
     uint32_t opener = (uint32_t)frame->next - 1;
     struct name *name = branch_is_closed(expander, opener)
-        ? need_free_name(expander) : NULL;
+                            ? need_free_name(expander)
+                            : NULL;
     size_t end = frame->source->token[opener].block.pair;
     if (!name) {
         return false;
@@ -104,15 +107,14 @@ static bool open_call(struct expander *expander, struct macro *macro,
                       struct location at)
 {
     struct call *grown = expand_grow(expander, expander->call,
-                                     &expander->call_room,
-                                     expander->calls + 1, sizeof *grown);
+                                     &expander->call_room, expander->calls + 1,
+                                     sizeof *grown);
     if (!grown) {
         return false;
     }
     expander->call = grown;
     grown[expander->calls++] = (struct call){
-        .macro = macro, .at = at, .first = expander->actuals
-    };
+        .macro = macro, .at = at, .first = expander->actuals};
     return true;
 }
 
@@ -140,8 +142,8 @@ static bool bind(struct expander *expander, const struct call *call)
         return report_no_memory(parser);
     }
     for (int i = 0; i < call->count; i++) {
-        const struct actual *actual = &expander->actual[call->first
-                                                        + (size_t)i];
+        const struct actual *actual =
+            &expander->actual[call->first + (size_t)i];
         struct symbol *symbol = symbols_local(&parser->symbols,
                                               call->macro->parameter[i]);
         if (!symbol) {
@@ -159,8 +161,8 @@ static bool wrong_count(struct expander *expander, const struct call *call,
     int wanted = call->macro->parameters;
     return parser_error(expander->parser, call->at,
                         "macro '%.40s' takes %d argument%s, %s given",
-                        call->macro->name->text, wanted,
-                        wanted == 1 ? "" : "s", given);
+                        call->macro->name->text, wanted, wanted == 1 ? "" : "s",
+                        given);
 }
 
 static bool enter(struct expander *expander)
@@ -178,8 +180,10 @@ static bool enter(struct expander *expander)
         return parser_fail(parser, BRUME_ERR_LIMIT, call.at, NULL,
                            "macros are called deeper than %d", most);
     }
-    struct frame frame = {.source = macro->source, .next = macro->body,
-                          .macro = macro, .called = call.at};
+    struct frame frame = {.source = macro->source,
+                          .next = macro->body,
+                          .macro = macro,
+                          .called = call.at};
     expander->calls--;
     expander->actuals = call.first;
     return bind(expander, &call) && expand_enter(expander, &frame);
@@ -211,32 +215,30 @@ enum found { FOUND_REFERENCE, FOUND_OTHER, FOUND_ERROR };
 static enum found find_reference(struct expander *expander)
 {
     const struct token *token = expand_peek(expander);
-    if (expander->held || token->kind != TOK_IDENTIFIER
-        || !ends_argument(&token[1])) {
+    if (expander->held || token->kind != TOK_IDENTIFIER ||
+        !ends_argument(&token[1])) {
         return FOUND_OTHER;
     }
     struct value *value = symbols_find(token->name);
     if (!value && !token->name->keyword) {
-        report_undeclared(expander->parser, token_location(token),
-                          token->name);
+        report_undeclared(expander->parser, token_location(token), token->name);
         return FOUND_ERROR;
     }
-    if (!value || token->name->symbol->constant
-        || value->kind == VALUE_MACRO) {
+    if (!value || token->name->symbol->constant || value->kind == VALUE_MACRO) {
         return FOUND_OTHER;
     }
     expand_frame(expander)->next++;
     directive_used(expander, token);
-    return add_actual(expander, value, value) ? FOUND_REFERENCE
-        : FOUND_ERROR;
+    return add_actual(expander, value, value) ? FOUND_REFERENCE : FOUND_ERROR;
 }
 
 /* `Array[`: an item, which is passed by reference if nothing follows it. */
 static bool seeks_item(struct expander *expander)
 {
     const struct token *token = expand_peek(expander);
-    const struct value *value = !expander->held
-        && token->kind == TOK_IDENTIFIER ? symbols_find(token->name) : NULL;
+    const struct value *value = !expander->held && token->kind == TOK_IDENTIFIER
+                                    ? symbols_find(token->name)
+                                    : NULL;
     return value && value->kind == VALUE_ARRAY && token[1].kind == '[';
 }
 
@@ -249,8 +251,8 @@ static bool read_arguments(struct expander *expander)
         }
         if (call->count >= call->macro->parameters) {
             return expand_peek(expander)->kind == ','
-                ? wrong_count(expander, call, "more are")
-                : expand_need(expander, ')');
+                       ? wrong_count(expander, call, "more are")
+                       : expand_need(expander, ')');
         }
         if (call->count > 0) {
             expand_take(expander, ',');
@@ -272,8 +274,8 @@ static bool read_arguments(struct expander *expander)
 bool macro_call(struct expander *expander, struct macro *macro,
                 struct location at)
 {
-    return expand_need(expander, '(') && open_call(expander, macro, at)
-        && read_arguments(expander);
+    return expand_need(expander, '(') && open_call(expander, macro, at) &&
+           read_arguments(expander);
 }
 
 bool macro_argument(struct expander *expander, const struct value *value,

@@ -24,7 +24,8 @@ static void on_signal(int signal)
 static void catch_signals(void)
 {
     struct sigaction action = {
-        .sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND,
+        .sa_handler = on_signal,
+        .sa_flags = (int)SA_RESETHAND,
     };
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
@@ -35,7 +36,7 @@ struct run {
     struct options options;
     struct console console;
     struct reel reel;
-    enum brume_code code;           /* of what the events below did        */
+    enum brume_code code; /* of what the events below did        */
 };
 
 /* ---- events ------------------------------------------------------------ */
@@ -84,7 +85,7 @@ static enum brume_code tell(struct run *run, const struct brume_error *err)
 static void on_planned(void *user, const struct brume_plan *plan)
 {
     struct run *run = user;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     if (run->options.action == OPTIONS_EXPLAIN) {
         explain_text(plan, stdout);
         return;
@@ -102,12 +103,18 @@ static void on_planned(void *user, const struct brume_plan *plan)
 static enum brume_code act(struct run *run)
 {
     const struct reel_events events = {
-        .user = run, .report = on_report, .message = on_message,
-        .frame = on_frame, .planned = on_planned, .progress = on_progress,
-        .finished = on_finished, .stopped = on_stopped,
-        .in = stdin, .out = stdout,
+        .user = run,
+        .report = on_report,
+        .message = on_message,
+        .frame = on_frame,
+        .planned = on_planned,
+        .progress = on_progress,
+        .finished = on_finished,
+        .stopped = on_stopped,
+        .in = stdin,
+        .out = stdout,
     };
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     enum brume_code code = reel_run(&run->reel, &run->options, &events);
     if (code == BRUME_STOPPED)
         fprintf(stderr, "stopped; %zu frames were finished\n",
@@ -123,7 +130,7 @@ static enum brume_code act(struct run *run)
 
 static enum brume_code render(struct run *run, const struct diag *diag)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     enum brume_code code = BRUME_OK;
     if (!console_open(&run->console, &run->options, stderr,
                       isatty(STDERR_FILENO), &err))
@@ -131,7 +138,8 @@ static enum brume_code render(struct run *run, const struct diag *diag)
     console_diag(&run->console, diag);
     if (!code && !diag->errors && !run->options.input) {
         fputs("error: no scene is given\nhint: brume --help tells what can "
-              "be\n", stderr);
+              "be\n",
+              stderr);
         code = BRUME_ERR_USAGE;
     }
     if (diag->errors)
@@ -145,7 +153,7 @@ static enum brume_code render(struct run *run, const struct diag *diag)
 /* -h and -? are POV-Ray's when they stand alone; elsewhere -H is a height. */
 static bool asks_for_help(int count, char **word)
 {
-    static const char *const words[] = { "-h", "-H", "+H", "-?", "-help" };
+    static const char *const words[] = {"-h", "-H", "+H", "-?", "-help"};
     for (size_t i = 0; count == 2 && i < sizeof words / sizeof *words; i++)
         if (strcmp(word[1], words[i]) == 0)
             return true;
@@ -161,8 +169,8 @@ static void read_options(struct options *options, int count, char **word,
     if (count > 1 && strcmp(word[1], "measure") == 0)
         diag_error(diag, BRUME_ERR_USAGE, "measure: not supported yet");
     else
-        options_read_words(options, count - 1,
-                           (const char *const *)(word + 1), diag);
+        options_read_words(options, count - 1, (const char *const *)(word + 1),
+                           diag);
 }
 
 static enum brume_code start(struct run *run, int count, char **word)
@@ -184,7 +192,7 @@ static enum brume_code start(struct run *run, int count, char **word)
 
 int main(int count, char **word)
 {
-    struct run run = { .code = BRUME_OK };
+    struct run run = {.code = BRUME_OK};
     catch_signals();
     options_init(&run.options);
     enum brume_code code = start(&run, count, word);

@@ -178,7 +178,10 @@ static double handedness(const struct brume_camera *camera)
 
     cross(camera->up, camera->direction, side);
     return side[0] * camera->right[0] + side[1] * camera->right[1] +
-           side[2] * camera->right[2] < 0 ? -1 : 1;
+                       side[2] * camera->right[2] <
+                   0
+               ? -1
+               : 1;
 }
 
 static enum camera_fault look_at(const struct camera *camera,

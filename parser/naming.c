@@ -44,8 +44,8 @@ enum options_format naming_format(const struct options *options)
 const char *naming_foreign(const struct options *options)
 {
     static const char *const others[] = {
-        ".png", ".exr", ".ppm", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr",
-        ".tif", ".tiff", ".gif", ".webp",
+        ".png", ".exr", ".ppm", ".jpg",  ".jpeg", ".tga",
+        ".bmp", ".hdr", ".tif", ".tiff", ".gif",  ".webp",
     };
     if (!options->output || options->has_format)
         return NULL;
@@ -128,7 +128,7 @@ const char *naming_picture(const struct options *options,
 
 const char *naming_folder(const struct options *options, struct arena *arena)
 {
-    struct frames still = { .animation = false };
+    struct frames still = {.animation = false};
     const char *path = naming_picture(options, &still, 0, arena);
     if (!path)
         return NULL;

@@ -9,8 +9,8 @@
 
 bool option_truth(const char *text, bool *truth)
 {
-    static const char *const on[] = { "on", "true", "yes", "1" };
-    static const char *const off[] = { "off", "false", "no", "0" };
+    static const char *const on[] = {"on", "true", "yes", "1"};
+    static const char *const off[] = {"off", "false", "no", "0"};
     for (size_t i = 0; i < sizeof on / sizeof *on; i++) {
         bool is_on = strcasecmp(text, on[i]) == 0;
         if (is_on || strcasecmp(text, off[i]) == 0) {
@@ -139,8 +139,10 @@ bool set_bytes(struct setting *s)
     snprintf(digits, sizeof digits, "%.*s", (int)length, s->value);
     if (length >= sizeof digits || !parse_number(digits, &number) ||
         number * scale < 1 || number * scale > 0x1p62)
-        return setting_error(s, "'%s' is not a number of bytes, which K, M, "
-                             "G or T may follow", s->value);
+        return setting_error(s,
+                             "'%s' is not a number of bytes, which K, M, "
+                             "G or T may follow",
+                             s->value);
     *(uint64_t *)member(s) = (uint64_t)(number * scale);
     return true;
 }
@@ -267,25 +269,37 @@ bool set_clock(struct setting *s)
 static bool read_file_type(struct setting *s, const char *type)
 {
     static const struct option_word types[] = {
-        { "N", OPTIONS_FORMAT_PNG, false }, { "P", OPTIONS_FORMAT_PPM, false },
-        { "E", OPTIONS_FORMAT_EXR, false }, { "T", 0, true },
-        { "C", 0, true }, { "H", 0, true }, { "J", 0, true },
-        { "B", 0, true }, { "S", 0, true }, { NULL, 0, false },
+        {"N", OPTIONS_FORMAT_PNG, false},
+        {"P", OPTIONS_FORMAT_PPM, false},
+        {"E", OPTIONS_FORMAT_EXR, false},
+        {"T", 0, true},
+        {"C", 0, true},
+        {"H", 0, true},
+        {"J", 0, true},
+        {"B", 0, true},
+        {"S", 0, true},
+        {NULL, 0, false},
     };
     const struct option_word *t = types;
     while (t->word && (*type & ~0x20) != *t->word)
         t++;
     if (!t->word)
-        return setting_error(s, "'%s' is no file type; N is PNG, E OpenEXR, "
-                             "P PPM", type);
+        return setting_error(s,
+                             "'%s' is no file type; N is PNG, E OpenEXR, "
+                             "P PPM",
+                             type);
     if (t->missing)
-        return setting_error(s, "file type '%c' is not supported yet; N is "
-                             "PNG, E OpenEXR, P PPM", *type);
+        return setting_error(s,
+                             "file type '%c' is not supported yet; N is "
+                             "PNG, E OpenEXR, P PPM",
+                             *type);
     if (type[1]) {
         double bits;
         if (!parse_number(type + 1, &bits) || bits < 5 || bits > 16)
-            return setting_error(s, "'%s' is not a number of bits from 5 to "
-                                 "16", type + 1);
+            return setting_error(s,
+                                 "'%s' is not a number of bits from 5 to "
+                                 "16",
+                                 type + 1);
         s->options->bits = (int)bits;
     }
     s->options->format = (enum options_format)t->value;
@@ -352,8 +366,10 @@ bool set_declare(struct setting *s)
     equals++;
     equals += strspn(equals, " ");
     if (!parse_number(equals, &number))
-        return setting_error(s, "'%s' is not a number, and only numbers can "
-                             "be declared here", equals);
+        return setting_error(s,
+                             "'%s' is not a number, and only numbers can "
+                             "be declared here",
+                             equals);
     struct parse_declare *d = find_declare(s->options, s->value, length);
     if (!d)
         d = add_declare(s, s->value, length);
@@ -379,8 +395,7 @@ bool set_file_gamma(struct setting *s)
     if (strcasecmp(s->value, "sRGB") == 0)
         return true;
     if (!parse_number(s->value, &number))
-        return setting_error(s, "'%s' is neither a number nor sRGB",
-                             s->value);
+        return setting_error(s, "'%s' is neither a number nor sRGB", s->value);
     return setting_warn(s, "no effect: PNG and PPM are written as sRGB");
 }
 
@@ -411,8 +426,8 @@ bool set_console(struct setting *s)
 bool set_stream_file(struct setting *s)
 {
     static const char *const names[OPTIONS_STREAMS] = {
-        "DEBUG.OUT", "FATAL.OUT", "RENDER.OUT", "STATS.OUT", "WARNING.OUT",
-        "ALLTEXT.OUT",
+        "DEBUG.OUT", "FATAL.OUT",   "RENDER.OUT",
+        "STATS.OUT", "WARNING.OUT", "ALLTEXT.OUT",
     };
     const char **file = &s->options->stream_file[s->option->at];
     bool on;

@@ -5,84 +5,99 @@
 enum { MAX_SIDE = 1 << 24, MAX_FRAME = 1 << 30, MAX_THREADS = 4096 };
 
 static const struct option_word backend_words[] = {
-    { "auto", BRUME_BACKEND_AUTO, false },
-    { "cpu", BRUME_BACKEND_CPU, false },
-    { "cuda", BRUME_BACKEND_CUDA, false },
-    { NULL, 0, false },
+    {"auto", BRUME_BACKEND_AUTO, false},
+    {"cpu", BRUME_BACKEND_CPU, false},
+    {"cuda", BRUME_BACKEND_CUDA, false},
+    {NULL, 0, false},
 };
 
 static const struct option_word integrator_words[] = {
-    { "path", BRUME_INTEGRATOR_PATH, false },
-    { "photon", 0, true },
-    { "progressive", 0, true },
-    { NULL, 0, false },
+    {"path", BRUME_INTEGRATOR_PATH, false},
+    {"photon", 0, true},
+    {"progressive", 0, true},
+    {NULL, 0, false},
 };
 
 static const struct option_word transport_words[] = {
-    { "pov", 0, false },
-    { "full", 1, false },
-    { NULL, 0, false },
+    {"pov", 0, false},
+    {"full", 1, false},
+    {NULL, 0, false},
 };
 
 static const struct option_word dither_words[] = {
-    { "B2", 0, false }, { "B3", 0, false }, { "B4", 0, false },
-    { "D1", 0, false }, { "D2", 0, false }, { "FS", 0, false },
-    { NULL, 0, false },
+    {"B2", 0, false}, {"B3", 0, false}, {"B4", 0, false}, {"D1", 0, false},
+    {"D2", 0, false}, {"FS", 0, false}, {NULL, 0, false},
 };
 
 static const struct option_word check_words[] = {
-    { "", OPTIONS_CHECK, false },
-    { "json", OPTIONS_CHECK, true },
-    { NULL, 0, false },
+    {"", OPTIONS_CHECK, false},
+    {"json", OPTIONS_CHECK, true},
+    {NULL, 0, false},
 };
 
 static const struct option_word explain_words[] = {
-    { "", OPTIONS_EXPLAIN, false },
-    { "json", OPTIONS_EXPLAIN_JSON, false },
-    { NULL, 0, false },
+    {"", OPTIONS_EXPLAIN, false},
+    {"json", OPTIONS_EXPLAIN_JSON, false},
+    {NULL, 0, false},
 };
 
 static const struct option_word progress_words[] = {
-    { "auto", OPTIONS_PROGRESS_AUTO, false },
-    { "off", OPTIONS_PROGRESS_OFF, false },
-    { "json", OPTIONS_PROGRESS_JSON, false },
-    { NULL, 0, false },
+    {"auto", OPTIONS_PROGRESS_AUTO, false},
+    {"off", OPTIONS_PROGRESS_OFF, false},
+    {"json", OPTIONS_PROGRESS_JSON, false},
+    {NULL, 0, false},
 };
 
 static const struct option_word help_words[] = {
-    { "", OPTIONS_HELP, false },
-    { NULL, 0, false },
+    {"", OPTIONS_HELP, false},
+    {NULL, 0, false},
 };
 
 static const struct option_word version_words[] = {
-    { "", OPTIONS_VERSION, false },
-    { NULL, 0, false },
+    {"", OPTIONS_VERSION, false},
+    {NULL, 0, false},
 };
 
 /* A row without any name is a heading of --help. */
-#define HEADING(text) { .help = text }
+#define HEADING(text)                                                          \
+    {                                                                          \
+        .help = text                                                           \
+    }
 
 /* Known to POV-Ray and of no effect here; the value is checked all the same. */
-#define IGNORED(plus_, ini_, value_, set_, help_)                             \
-    { .plus = plus_, .ini = ini_, .value = value_, .set = set_,               \
-      .at = OPTION_NOWHERE, .help = help_ }
+#define IGNORED(plus_, ini_, value_, set_, help_)                              \
+    {                                                                          \
+        .plus = plus_, .ini = ini_, .value = value_, .set = set_,              \
+        .at = OPTION_NOWHERE, .help = help_                                    \
+    }
 
-#define MISSING(plus_, ini_, name_, value_, set_, help_)                      \
-    { .plus = plus_, .ini = ini_, .name = name_, .value = value_,             \
-      .set = set_, .at = OPTION_NOWHERE, .help = help_ }
+#define MISSING(plus_, ini_, name_, value_, set_, help_)                       \
+    {                                                                          \
+        .plus = plus_, .ini = ini_, .name = name_, .value = value_,            \
+        .set = set_, .at = OPTION_NOWHERE, .help = help_                       \
+    }
 
-#define STREAM(name, stream)                                                  \
-    { .ini = name "_Console", .set = set_flag, .at = AT(console[stream]),     \
-      .initial = 1 },                                                         \
-    { .ini = name "_File", .value = "file", .set = set_stream_file,           \
-      .at = stream }
+#define STREAM(name, stream)                                                   \
+    {.ini = name "_Console",                                                   \
+     .set = set_flag,                                                          \
+     .at = AT(console[stream]),                                                \
+     .initial = 1},                                                            \
+    {                                                                          \
+        .ini = name "_File", .value = "file", .set = set_stream_file,          \
+        .at = stream                                                           \
+    }
 
-#define SHELL(name)                                                           \
-    { .ini = name "_Command", .value = "text", .set = set_shell,              \
-      .at = OPTION_NOWHERE },                                                 \
-    { .ini = name "_Return", .value = "x", .set = set_text,                   \
-      .at = OPTION_NOWHERE }
+#define SHELL(name)                                                            \
+    {.ini = name "_Command",                                                   \
+     .value = "text",                                                          \
+     .set = set_shell,                                                         \
+     .at = OPTION_NOWHERE},                                                    \
+    {                                                                          \
+        .ini = name "_Return", .value = "x", .set = set_text,                  \
+        .at = OPTION_NOWHERE                                                   \
+    }
 
+/* clang-format off */
 const struct option option_table[] = {
     HEADING("Scene"),
     { .plus = "I", .ini = "Input_File_Name", .value = "file", .set = set_input,
@@ -310,5 +325,6 @@ const struct option option_table[] = {
     MISSING(NULL, NULL, "preset", "name", set_missing,
             "paper: the published choices"),
 };
+/* clang-format on */
 
 const int option_count = sizeof option_table / sizeof *option_table;

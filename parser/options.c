@@ -22,7 +22,7 @@ static void set_default(struct options *options, const struct option *o)
 
 void options_init(struct options *options)
 {
-    *options = (struct options){ 0 };
+    *options = (struct options){0};
     arena_init(&options->arena, (size_t)64 << 20);
     for (int i = 0; i < option_count; i++)
         set_default(options, &option_table[i]);
@@ -48,7 +48,10 @@ static void report(const struct option_reader *reader,
                    const char *hint, const char *text)
 {
     struct diag_item item = {
-        .severity = severity, .code = code, .text = text, .hint = hint,
+        .severity = severity,
+        .code = code,
+        .text = text,
+        .hint = hint,
     };
     if (reader->file && reader->number) {
         item.file = reader->file;
@@ -132,7 +135,7 @@ static void consider(struct suggestion *best, const char *word,
     size_t distance = diag_distance(word, word_length, candidate, length,
                                     bound);
     if (distance <= bound && distance < best->distance)
-        *best = (struct suggestion){ dashes, name, distance };
+        *best = (struct suggestion){dashes, name, distance};
 }
 
 /* Written as "--threads", "+KFF" or "Width", like what `word` tried to be. */
@@ -142,7 +145,7 @@ static bool fail_unknown(const struct option_reader *reader, const char *word)
     const char *bare = word + strspn(word, "+-");
     lower(bare, lowered, sizeof lowered);
     lowered[strcspn(lowered, "=")] = '\0';
-    struct suggestion best = { NULL, NULL, SIZE_MAX };
+    struct suggestion best = {NULL, NULL, SIZE_MAX};
     for (int i = 0; i < option_count; i++)
         consider(&best, lowered, "--", option_table[i].name);
     for (int i = 0; i < option_count; i++)
@@ -216,7 +219,8 @@ static bool apply_switch(const struct option_reader *reader, const char *word)
     if (!*value && needs_value(o))
         return reader_fail(reader, BRUME_ERR_USAGE, NULL,
                            "%s: a value is missing; it follows without a "
-                           "blank: %s%s", written, written, o->value);
+                           "blank: %s%s",
+                           written, written, o->value);
     return apply(reader, o, written, word[0], *value ? value : NULL);
 }
 

@@ -43,8 +43,7 @@ static bool read_items(struct option_reader *reader, struct ini *ini,
     struct ini_item item;
     do {
         if (!ini_next(ini, &reader->options->arena, &item))
-            return reader_fail(reader, BRUME_ERR_MEMORY, NULL,
-                               "out of memory");
+            return reader_fail(reader, BRUME_ERR_MEMORY, NULL, "out of memory");
         reader->line = ini->line;
         reader->line_end = ini->line_end;
         reader->where = item.where;
@@ -69,8 +68,8 @@ static bool same_section(const char *a, const char *b)
     return a && b ? strcasecmp(a, b) == 0 : a == b;
 }
 
-static bool is_being_read(const struct option_reader *reader,
-                          const char *path, const char *section)
+static bool is_being_read(const struct option_reader *reader, const char *path,
+                          const char *section)
 {
     struct stat a, b;
     if (stat(path, &a) != 0)
@@ -86,10 +85,14 @@ static bool read_file(const struct option_reader *outer, const char *path,
                       const char *section)
 {
     struct option_reader reader = {
-        .options = outer->options, .diag = outer->diag, .outer = outer,
-        .file = path, .section = section, .files = outer->files,
+        .options = outer->options,
+        .diag = outer->diag,
+        .outer = outer,
+        .file = path,
+        .section = section,
+        .files = outer->files,
     };
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     char *text;
     size_t length;
     if (is_being_read(outer, path, section))
@@ -123,7 +126,8 @@ static const char *find_ini(const struct option_reader *reader,
     struct arena *arena = &reader->options->arena;
     const char *folder = folder_of(arena, reader->file);
     const char *beside = folder && *name != '/' && !is_file(name)
-                         ? join(arena, folder, name) : NULL;
+                             ? join(arena, folder, name)
+                             : NULL;
     return beside && is_file(beside) ? beside : name;
 }
 
@@ -177,7 +181,8 @@ bool reader_operand(const struct option_reader *reader, const char *word)
     if (reader->file && !ends_with(word, length, ".pov"))
         return reader_fail(reader, BRUME_ERR_USAGE, NULL,
                            "'%s' is neither name=value, nor a switch, nor an "
-                           "INI file", word);
+                           "INI file",
+                           word);
     return reader_scene(reader, word);
 }
 
@@ -188,7 +193,9 @@ bool options_read_words(struct options *options, int count,
 {
     int files = 0;
     struct option_reader reader = {
-        .options = options, .diag = diag, .files = &files,
+        .options = options,
+        .diag = diag,
+        .files = &files,
     };
     bool ok = true;
     for (int i = 0; i < count; i++) {
@@ -205,7 +212,9 @@ bool options_read_ini(struct options *options, const char *path,
 {
     int files = 0;
     struct option_reader reader = {
-        .options = options, .diag = diag, .files = &files,
+        .options = options,
+        .diag = diag,
+        .files = &files,
     };
     return read_file(&reader, path, section);
 }

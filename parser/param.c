@@ -63,14 +63,14 @@ static bool out_of_range(struct parser *parser, const struct param *row,
     const char *to = row->open & PARAM_BELOW ? "less than" : "at most";
 
     if (!isfinite(x))
-        return parser_error(parser, at, "'%s' is %g, must be finite",
-                            row->word, x);
+        return parser_error(parser, at, "'%s' is %g, must be finite", row->word,
+                            x);
     if (isinf(row->high))
-        return parser_error(parser, at, "'%s' is %g, must be %s %g",
-                            row->word, x, from, row->low);
+        return parser_error(parser, at, "'%s' is %g, must be %s %g", row->word,
+                            x, from, row->low);
     if (isinf(row->low))
-        return parser_error(parser, at, "'%s' is %g, must be %s %g",
-                            row->word, x, to, row->high);
+        return parser_error(parser, at, "'%s' is %g, must be %s %g", row->word,
+                            x, to, row->high);
     return parser_error(parser, at, "'%s' is %g, must be %s %g and %s %g",
                         row->word, x, from, row->low, to, row->high);
 }
@@ -199,9 +199,11 @@ static bool wrong_choice(struct parser *parser, const struct param *row,
         return parser_error(parser, at, "'%s' takes a number, not '%s'",
                             row->word, choice);
     for (int i = 0; row->choice[i] && used < sizeof words; i++)
-        used += (size_t)snprintf(
-            words + used, sizeof words - used, "%s%s",
-            i == 0 ? "" : row->choice[i + 1] ? ", " : " or ", row->choice[i]);
+        used += (size_t)snprintf(words + used, sizeof words - used, "%s%s",
+                                 i == 0               ? ""
+                                 : row->choice[i + 1] ? ", "
+                                                      : " or ",
+                                 row->choice[i]);
     return parser_error(parser, at, "'%s' must be %s, not '%s'", row->word,
                         words, choice);
 }

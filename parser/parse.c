@@ -14,8 +14,8 @@ static bool predeclare(struct parser *parser, const char *word,
                        struct value value, bool constant)
 {
     struct name *name = symbols_name(&parser->symbols, word, strlen(word));
-    struct symbol *symbol = name
-        ? symbols_declare(&parser->symbols, name) : NULL;
+    struct symbol *symbol = name ? symbols_declare(&parser->symbols, name)
+                                 : NULL;
     if (!symbol) {
         return report_no_memory(parser);
     }
@@ -45,19 +45,24 @@ static bool predeclare_floats(struct parser *parser)
     const struct {
         const char *word;
         double value;
-    } floats[] = {
-        {"pi", 3.14159265358979323846}, {"true", 1}, {"yes", 1}, {"on", 1},
-        {"false", 0}, {"no", 0}, {"off", 0}, {"version", parser->version},
-        {"clock", ambient->clock}, {"clock_delta", ambient->clock_delta},
-        {"clock_on", ambient->clock_on},
-        {"frame_number", ambient->frame_number},
-        {"initial_clock", ambient->initial_clock},
-        {"final_clock", ambient->final_clock},
-        {"initial_frame", ambient->initial_frame},
-        {"final_frame", ambient->final_frame},
-        {"image_width", ambient->image_width},
-        {"image_height", ambient->image_height}
-    };
+    } floats[] = {{"pi", 3.14159265358979323846},
+                  {"true", 1},
+                  {"yes", 1},
+                  {"on", 1},
+                  {"false", 0},
+                  {"no", 0},
+                  {"off", 0},
+                  {"version", parser->version},
+                  {"clock", ambient->clock},
+                  {"clock_delta", ambient->clock_delta},
+                  {"clock_on", ambient->clock_on},
+                  {"frame_number", ambient->frame_number},
+                  {"initial_clock", ambient->initial_clock},
+                  {"final_clock", ambient->final_clock},
+                  {"initial_frame", ambient->initial_frame},
+                  {"final_frame", ambient->final_frame},
+                  {"image_width", ambient->image_width},
+                  {"image_height", ambient->image_height}};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
         if (!predeclare(parser, floats[i].word, value_float(floats[i].value),
                         true)) {
@@ -73,14 +78,12 @@ static bool predeclare_vectors(struct parser *parser)
         const char *word;
         int terms;
         double v[4];
-    } vectors[] = {
-        {"x", 3, {1, 0, 0}}, {"y", 3, {0, 1, 0}}, {"z", 3, {0, 0, 1}},
-        {"t", 4, {0, 0, 0, 1}}, {"u", 2, {1, 0}}, {"v", 2, {0, 1}}
-    };
+    } vectors[] = {{"x", 3, {1, 0, 0}}, {"y", 3, {0, 1, 0}},
+                   {"z", 3, {0, 0, 1}}, {"t", 4, {0, 0, 0, 1}},
+                   {"u", 2, {1, 0}},    {"v", 2, {0, 1}}};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         if (!predeclare(parser, vectors[i].word,
-                        value_vector(vectors[i].terms, vectors[i].v),
-                        true)) {
+                        value_vector(vectors[i].terms, vectors[i].v), true)) {
             return false;
         }
     }
@@ -115,19 +118,19 @@ static struct parse_limits limits_of(const struct parse_input *in)
 
 static bool read_scene(struct parser *parser)
 {
-    return (symbols_init(&parser->symbols, &parser->arena)
-            || report_no_memory(parser))
-        && predeclare_floats(parser) && predeclare_vectors(parser)
-        && predeclare_given(parser) && build_begin(parser)
-        && expander_run(parser) && build_finish(parser);
+    return (symbols_init(&parser->symbols, &parser->arena) ||
+            report_no_memory(parser)) &&
+           predeclare_floats(parser) && predeclare_vectors(parser) &&
+           predeclare_given(parser) && build_begin(parser) &&
+           expander_run(parser) && build_finish(parser);
 }
 
 static bool begin_scene(struct parser *parser)
 {
     struct brume_error err = {0};
     parser->out->scene = brume_scene_new(&err);
-    return parser->out->scene || diag_error(parser->diag, err.code, "%s",
-                                            err.text);
+    return parser->out->scene ||
+           diag_error(parser->diag, err.code, "%s", err.text);
 }
 
 bool parse_scene(const struct parse_input *in, struct parse_result *out,
@@ -138,8 +141,8 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     parser.limits = limits_of(in);
     parser.version = in->version > 0 ? in->version : VERSION_DEFAULT;
     arena_init(&parser.arena, parser.limits.memory);
-    bool done = begin_scene(&parser) && read_scene(&parser)
-        && diag->errors == 0;
+    bool done = begin_scene(&parser) && read_scene(&parser) &&
+                diag->errors == 0;
     if (!done) {
         brume_scene_free(out->scene);
         out->scene = NULL;

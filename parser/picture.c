@@ -13,7 +13,10 @@ static void add_channel(struct image *image, struct image_channel *channel,
                         const char *name, const float *base, int stride)
 {
     channel[image->channels++] = (struct image_channel){
-        name, base, stride, (ptrdiff_t)stride * image->width,
+        name,
+        base,
+        stride,
+        (ptrdiff_t)stride * image->width,
     };
 }
 
@@ -43,8 +46,10 @@ static bool copy_stream(FILE *from, FILE *to, struct brume_error *err)
     size_t got;
     while ((got = fread(bytes, 1, sizeof bytes, from)) > 0)
         if (fwrite(bytes, 1, got, to) != got)
-            return brume_fail(err, BRUME_ERR_FILE, "can't write the picture to "
-                              "standard output: %s", strerror(errno));
+            return brume_fail(err, BRUME_ERR_FILE,
+                              "can't write the picture to "
+                              "standard output: %s",
+                              strerror(errno));
     return true;
 }
 
@@ -97,14 +102,17 @@ static bool write_image(const struct picture *p, const struct image *image,
 bool picture_write(const struct picture *picture, const char *path, FILE *out,
                    struct brume_error *err)
 {
-    static const char *const radiance[] = { "R", "G", "B" };
-    static const char *const opacity[] = { "opacity.R", "opacity.G",
-                                           "opacity.B" };
+    static const char *const radiance[] = {"R", "G", "B"};
+    static const char *const opacity[] = {"opacity.R", "opacity.G",
+                                          "opacity.B"};
     const struct brume_frame *frame = picture->frame;
     struct image_channel channel[MAX_CHANNELS];
     struct image image = {
-        .width = frame->width, .height = frame->height,
-        .x1 = frame->width, .y1 = frame->height, .channel = channel,
+        .width = frame->width,
+        .height = frame->height,
+        .x1 = frame->width,
+        .y1 = frame->height,
+        .channel = channel,
     };
     float *alpha = NULL;
     add_colour(&image, channel, radiance, frame->radiance);
@@ -121,7 +129,9 @@ bool picture_write(const struct picture *picture, const char *path, FILE *out,
     bool ok = write_image(picture, &image, path, out, err);
     free(alpha);
     if (ok && strcmp(path, "-") == 0 && fflush(out) != 0)
-        ok = brume_fail(err, BRUME_ERR_FILE, "can't write the picture to "
-                        "standard output: %s", strerror(errno));
+        ok = brume_fail(err, BRUME_ERR_FILE,
+                        "can't write the picture to "
+                        "standard output: %s",
+                        strerror(errno));
     return ok;
 }

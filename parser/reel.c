@@ -28,18 +28,22 @@ static enum brume_code fail(const struct reel *reel,
                             const struct brume_error *err)
 {
     report_item(reel, &(struct diag_item){
-        .severity = DIAG_ERROR, .code = err->code, .text = err->text,
-        .file = err->line ? err->file : NULL, .line = err->line,
-        .column = err->column,
-    });
+                          .severity = DIAG_ERROR,
+                          .code = err->code,
+                          .text = err->text,
+                          .file = err->line ? err->file : NULL,
+                          .line = err->line,
+                          .column = err->column,
+                      });
     return err->code;
 }
 
 static void warn(void *user, const char *text)
 {
     report_item(user, &(struct diag_item){
-        .severity = DIAG_WARNING, .text = text,
-    });
+                          .severity = DIAG_WARNING,
+                          .text = text,
+                      });
 }
 
 static bool on_progress(void *user, const struct brume_progress *progress)
@@ -71,8 +75,8 @@ static bool find_folders(struct reel *reel, struct brume_error *err)
     const struct options *options = reel->options;
     struct arena *arena = &reel->arena;
     const char *out = naming_folder(options, arena);
-    reel->library = with_one(arena, &options->library,
-                             input_own_folder(arena), &reel->libraries);
+    reel->library = with_one(arena, &options->library, input_own_folder(arena),
+                             &reel->libraries);
     reel->allow_write = with_one(arena, &options->allow_write, out,
                                  &reel->allow_writes);
     if (!out || !reel->library || !reel->allow_write)
@@ -97,8 +101,10 @@ static void warn_of_extension(struct reel *reel)
     const char *extension = naming_foreign(reel->options);
     if (!extension)
         return;
-    snprintf(text, sizeof text, "%s pictures are not supported yet: the file "
-             "will be '%s.png'", extension, reel->options->output);
+    snprintf(text, sizeof text,
+             "%s pictures are not supported yet: the file "
+             "will be '%s.png'",
+             extension, reel->options->output);
     warn(reel, text);
 }
 
@@ -121,17 +127,23 @@ static bool read_scene(struct reel *reel, int number,
     const struct options *options = reel->options;
     const struct reel_events *events = reel->events;
     struct parse_input in = {
-        .path = reel->path, .text = reel->text, .length = reel->length,
-        .header = options->header, .version = options->version,
+        .path = reel->path,
+        .text = reel->text,
+        .length = reel->length,
+        .header = options->header,
+        .version = options->version,
         .full_transport = options->full_transport,
-        .library = reel->library, .libraries = reel->libraries,
+        .library = reel->library,
+        .libraries = reel->libraries,
         .allow_read = options->allow_read.item,
         .allow_reads = options->allow_read.count,
         .allow_write = reel->allow_write,
         .allow_writes = reel->allow_writes,
-        .declare = options->declare, .declares = options->declares,
-        .limits = { .memory = options->memory },
-        .message = events->message, .stopped = events->stopped,
+        .declare = options->declare,
+        .declares = options->declares,
+        .limits = {.memory = options->memory},
+        .message = events->message,
+        .stopped = events->stopped,
         .user = events->user,
     };
     frames_ambient(&reel->frames, options, number, &in.ambient);
@@ -184,25 +196,26 @@ static size_t describe(const struct reel *reel, const struct reel_record *r,
 {
     size_t count = 0;
     const char *slash = strrchr(reel->options->input, '/');
-    text[count++] = (struct exr_text){ "software", "Brume " BRUME_VERSION };
+    text[count++] = (struct exr_text){"software", "Brume " BRUME_VERSION};
     text[count++] = (struct exr_text){
-        "scene", slash ? slash + 1 : reel->options->input,
+        "scene",
+        slash ? slash + 1 : reel->options->input,
     };
     if (reel->frames.animation) {
         snprintf(value[count], TEXT_SIZE, "%d", r->number);
-        text[count] = (struct exr_text){ "frame", value[count] };
+        text[count] = (struct exr_text){"frame", value[count]};
         count++;
     }
     if (r->clock_on) {
         snprintf(value[count], TEXT_SIZE, "%.17g", r->clock);
-        text[count] = (struct exr_text){ "clock", value[count] };
+        text[count] = (struct exr_text){"clock", value[count]};
         count++;
     }
     snprintf(value[count], TEXT_SIZE, "%d", r->stats.spp);
-    text[count] = (struct exr_text){ "samplesPerPixel", value[count] };
+    text[count] = (struct exr_text){"samplesPerPixel", value[count]};
     count++;
     snprintf(value[count], TEXT_SIZE, "%.6g", r->stats.error);
-    text[count] = (struct exr_text){ "relativeError", value[count] };
+    text[count] = (struct exr_text){"relativeError", value[count]};
     return count + 1;
 }
 
@@ -213,8 +226,11 @@ static bool write_frame(struct reel *reel, const struct brume_frame *frame,
     struct exr_text text[TEXTS];
     char value[TEXTS][TEXT_SIZE];
     struct picture picture = {
-        .frame = frame, .format = naming_format(options),
-        .bits = options->bits, .alpha = options->alpha, .text = text,
+        .frame = frame,
+        .format = naming_format(options),
+        .bits = options->bits,
+        .alpha = options->alpha,
+        .text = text,
         .texts = describe(reel, record, text, value),
     };
     if (!options->to_file)
@@ -245,13 +261,17 @@ static void warn_of_samples(struct reel *reel, const struct brume_stats *stats)
 {
     char text[160];
     if (stats->rejected > 0) {
-        snprintf(text, sizeof text, "%" PRIu64 " samples were not finite and "
-                 "were left out", stats->rejected);
+        snprintf(text, sizeof text,
+                 "%" PRIu64 " samples were not finite and "
+                 "were left out",
+                 stats->rejected);
         warn(reel, text);
     }
     if (stats->majorant_exceeded > 0) {
-        snprintf(text, sizeof text, "a density was above its bound %" PRIu64
-                 " times: the picture may be wrong", stats->majorant_exceeded);
+        snprintf(text, sizeof text,
+                 "a density was above its bound %" PRIu64
+                 " times: the picture may be wrong",
+                 stats->majorant_exceeded);
         warn(reel, text);
     }
 }
@@ -260,7 +280,7 @@ static bool render(struct reel *reel, const struct parse_result *scene,
                    struct reel_record *record, struct brume_error *err)
 {
     struct brume_options options = render_options(reel, record->number, scene);
-    struct brume_frame frame = { 0 };
+    struct brume_frame frame = {0};
     if (!brume_render(scene->scene, &options, &frame, err))
         return false;
     record->stats = frame.stats;
@@ -277,7 +297,7 @@ static bool explain(struct reel *reel, const struct parse_result *scene,
                     int number, struct brume_error *err)
 {
     struct brume_options options = render_options(reel, number, scene);
-    struct brume_plan plan = { 0 };
+    struct brume_plan plan = {0};
     if (!brume_plan_frame(scene->scene, &options, &plan, err))
         return false;
     reel->events->planned(reel->events->user, &plan);
@@ -288,20 +308,22 @@ static bool act_on(struct reel *reel, const struct parse_result *scene,
                    struct reel_record *record, struct brume_error *err)
 {
     switch (reel->options->action) {
-    case OPTIONS_RENDER: return render(reel, scene, record, err);
+    case OPTIONS_RENDER:
+        return render(reel, scene, record, err);
     case OPTIONS_EXPLAIN:
     case OPTIONS_EXPLAIN_JSON:
         return explain(reel, scene, record->number, err);
-    default: return true;
+    default:
+        return true;
     }
 }
 
 static enum brume_code run_frame(struct reel *reel, int number)
 {
     const struct reel_events *events = reel->events;
-    struct reel_record record = { 0 };
-    struct parse_result scene = { 0 };
-    struct brume_error err = { 0 };
+    struct reel_record record = {0};
+    struct parse_result scene = {0};
+    struct brume_error err = {0};
     struct diag diag;
     events->frame(events->user, &reel->frames, number);
     diag_init(&diag);
@@ -330,12 +352,11 @@ static bool goes_on(const struct reel *reel)
 enum brume_code reel_run(struct reel *reel, struct options *options,
                          const struct reel_events *events)
 {
-    struct brume_error err = { 0 };
-    *reel = (struct reel){ .options = options, .events = events };
+    struct brume_error err = {0};
+    *reel = (struct reel){.options = options, .events = events};
     arena_init(&reel->arena, 0);
     if (!begin(reel, &err))
-        return events->stopped(events->user) ? BRUME_STOPPED
-                                             : fail(reel, &err);
+        return events->stopped(events->user) ? BRUME_STOPPED : fail(reel, &err);
     const struct frames *f = &reel->frames;
     for (int i = f->first;; i += f->step) {
         enum brume_code code = run_frame(reel, i);

@@ -39,12 +39,12 @@ static void write_trace(const struct parser *parser, char *text, size_t room)
         if (!source || used >= room) {
             continue;
         }
-        used += (size_t)snprintf(
-            text + used, room - used,
-            call.macro ? "%s:%d: in macro %s called here\n"
-                       : "%s:%d: included from here\n",
-            source->name, source_locate(source, call.at.offset).line,
-            call.macro);
+        used += (size_t)snprintf(text + used, room - used,
+                                 call.macro ? "%s:%d: in macro %s called here\n"
+                                            : "%s:%d: included from here\n",
+                                 source->name,
+                                 source_locate(source, call.at.offset).line,
+                                 call.macro);
     }
 }
 
@@ -60,8 +60,8 @@ static void add(struct parser *parser, struct diag_item *item,
         item->column = point.column;
         write_trace(parser, trace, sizeof trace);
         item->trace = *trace ? trace : NULL;
-        if (parser->diag->warnings < parser->diag->warning_limit
-            || item->severity == DIAG_ERROR) {
+        if (parser->diag->warnings < parser->diag->warning_limit ||
+            item->severity == DIAG_ERROR) {
             item->excerpt = diag_excerpt(&parser->diag->arena, point.start,
                                          point.end, point.at, point.line);
         }
@@ -72,8 +72,8 @@ static void add(struct parser *parser, struct diag_item *item,
 static bool fail(struct parser *parser, enum brume_code code,
                  struct location at, const char *hint, const char *text)
 {
-    struct diag_item item = {.severity = DIAG_ERROR, .code = code,
-                             .text = text, .hint = hint};
+    struct diag_item item = {
+        .severity = DIAG_ERROR, .code = code, .text = text, .hint = hint};
     /* What follows the first error is its consequence. */
     if (!parser->failed) {
         add(parser, &item, at);
@@ -82,8 +82,8 @@ static bool fail(struct parser *parser, enum brume_code code,
     return false;
 }
 
-bool parser_error(struct parser *parser, struct location at,
-                  const char *format, ...)
+bool parser_error(struct parser *parser, struct location at, const char *format,
+                  ...)
 {
     char text[TEXT];
     va_list args;
@@ -94,8 +94,7 @@ bool parser_error(struct parser *parser, struct location at,
 }
 
 bool parser_fail(struct parser *parser, enum brume_code code,
-                 struct location at, const char *hint, const char *format,
-                 ...)
+                 struct location at, const char *hint, const char *format, ...)
 {
     char text[TEXT];
     va_list args;
@@ -117,8 +116,8 @@ static bool warned(struct parser *parser, struct location at)
     return false;
 }
 
-void parser_warn(struct parser *parser, struct location at,
-                 const char *format, ...)
+void parser_warn(struct parser *parser, struct location at, const char *format,
+                 ...)
 {
     char text[TEXT];
     if (warned(parser, at)) {
@@ -151,10 +150,13 @@ bool report_no_memory(struct parser *parser)
 {
     struct location at = expander_place(parser);
     return parser->arena.limited
-        ? parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "the scene needs "
-                      "more than the %zu bytes of memory that it may use",
-                      parser->limits.memory)
-        : parser_fail(parser, BRUME_ERR_MEMORY, at, NULL, "out of memory");
+               ? parser_fail(
+                     parser, BRUME_ERR_LIMIT, at, NULL,
+                     "the scene needs "
+                     "more than the %zu bytes of memory that it may use",
+                     parser->limits.memory)
+               : parser_fail(parser, BRUME_ERR_MEMORY, at, NULL,
+                             "out of memory");
 }
 
 void report_exhausted(struct parser *parser, struct location at, int depth)
@@ -163,8 +165,10 @@ void report_exhausted(struct parser *parser, struct location at, int depth)
     if (expander_tokens(parser) < (uint64_t)depth / 4) {
         parser_fail(parser, BRUME_ERR_MEMORY, at, NULL, "out of memory");
     } else {
-        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL, "brackets are nested "
-                    "deeper than %d", depth);
+        parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                    "brackets are nested "
+                    "deeper than %d",
+                    depth);
     }
 }
 
@@ -199,8 +203,8 @@ static size_t spelling_length(const char *text, size_t left)
         return length < left && text[length] == '"' ? length + 1 : length;
     }
     length += *text == '#' || *text == '.';
-    while (length < left && (isalnum((unsigned char)text[length])
-                             || text[length] == '_')) {
+    while (length < left &&
+           (isalnum((unsigned char)text[length]) || text[length] == '_')) {
         length++;
     }
     return length ? length : 1;
@@ -241,6 +245,7 @@ static bool contains(const int *list, int count, int kind)
 /* Tokens that begin a number or a string, or that continue one. */
 static bool begins_value(int kind)
 {
+    /* clang-format off */
     static const int kinds[] = {
         TOK_NUMBER, TOK_STRING, TOK_FLOAT_ID, TOK_VECTOR_ID, TOK_COLOR_ID,
         TOK_STRING_ID, TOK_NUMBER_FUNCTION, TOK_STRING_FUNCTION,
@@ -248,15 +253,18 @@ static bool begins_value(int kind)
         TOK_COLOR, TOK_RED, TOK_GREEN, TOK_BLUE, TOK_FILTER, TOK_TRANSMIT,
         TOK_RGB, '(', '<', '+', '-', '!'
     };
+    /* clang-format on */
     return contains(kinds, sizeof kinds / sizeof *kinds, kind);
 }
 
 static bool continues_value(int kind)
 {
+    /* clang-format off */
     static const int kinds[] = {
         '+', '-', '*', '/', '&', '|', '?', '=', '<', '>', TOK_DOT,
         TOK_LESS_EQUAL, TOK_GREATER_EQUAL, TOK_NOT_EQUAL
     };
+    /* clang-format on */
     return contains(kinds, sizeof kinds / sizeof *kinds, kind);
 }
 
@@ -273,9 +281,9 @@ static void write_expected(char *text, size_t room, const int *expected,
         name[names++] = number ? "a number" : "a string";
     }
     for (int i = 0; i < count && names <= NAMED; i++) {
-        if (expected[i] != TOK_END
-            && !(continues_value(expected[i]) && !number)
-            && !((number || string) && begins_value(expected[i]))) {
+        if (expected[i] != TOK_END &&
+            !(continues_value(expected[i]) && !number) &&
+            !((number || string) && begins_value(expected[i]))) {
             name[names++] = grammar_token_name(expected[i]);
         }
     }
@@ -283,7 +291,9 @@ static void write_expected(char *text, size_t room, const int *expected,
     *text = 0;
     for (int i = 0; i < names && names <= NAMED && used < room; i++) {
         used += (size_t)snprintf(text + used, room - used, "%s%s",
-                                 i == 0 ? "" : i + 1 < names ? ", " : " or ",
+                                 i == 0          ? ""
+                                 : i + 1 < names ? ", "
+                                                 : " or ",
                                  name[i]);
     }
 }
@@ -306,11 +316,17 @@ static void write_found(struct parser *parser, char *text, size_t room,
  * end is missing. */
 static bool begins_another(int kind)
 {
-    static const int kinds[] = {
-        TOK_END, TOK_CAMERA, TOK_LIGHT_SOURCE, TOK_BACKGROUND,
-        TOK_GLOBAL_SETTINGS, TOK_SHAPE, TOK_CYLINDER, TOK_MESH, TOK_MESH2,
-        TOK_UNION, TOK_OBJECT
-    };
+    static const int kinds[] = {TOK_END,
+                                TOK_CAMERA,
+                                TOK_LIGHT_SOURCE,
+                                TOK_BACKGROUND,
+                                TOK_GLOBAL_SETTINGS,
+                                TOK_SHAPE,
+                                TOK_CYLINDER,
+                                TOK_MESH,
+                                TOK_MESH2,
+                                TOK_UNION,
+                                TOK_OBJECT};
     return contains(kinds, sizeof kinds / sizeof *kinds, kind);
 }
 
@@ -321,8 +337,8 @@ static void report_open(struct parser *parser, struct location at,
 {
     char hint[128];
     int line = source_locate(source_of(parser, began), began.offset).line;
-    snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d",
-             word, line);
+    snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d", word,
+             line);
     parser_fail(parser, BRUME_ERR_SCENE, at, hint, "%s has no place in '%s'",
                 got, word);
 }

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PAD = 2 };       /* NULs that the scanner wants behind a text       */
+enum { PAD = 2 }; /* NULs that the scanner wants behind a text       */
 
 /* ---- the table of texts ------------------------------------------------ */
 
@@ -70,8 +70,8 @@ static struct source *known(const struct parser *parser, const char *real)
 static bool over_memory(struct parser *parser, struct location at,
                         const struct source *source)
 {
-    size_t bytes = parser->source_bytes + source->length
-        + source->room * sizeof *source->token;
+    size_t bytes = parser->source_bytes + source->length +
+                   source->room * sizeof *source->token;
     if (parser->limits.memory && bytes > parser->limits.memory) {
         return !parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
                             "the texts need more than %zu bytes of memory",
@@ -101,7 +101,8 @@ static bool read_all(struct parser *parser, struct location at,
     struct stat status;
     size_t room = 0;
     size_t expected = fstat(file, &status) == 0 && status.st_size > 0
-        ? (size_t)status.st_size : STEP;
+                          ? (size_t)status.st_size
+                          : STEP;
     ssize_t got;
     do {
         size_t need = source->length ? source->length + STEP : expected + 1;
@@ -127,10 +128,11 @@ static bool read_file(struct parser *parser, struct location at,
     int file = open(source->name, O_RDONLY | O_CLOEXEC);
     if (file < 0) {
         int why = errno;
-        return parser_fail(parser, why == EACCES || why == EPERM
-                           ? BRUME_ERR_ACCESS : BRUME_ERR_FILE, at, NULL,
-                           "'%s' could not be opened: %s", source->name,
-                           strerror(why));
+        return parser_fail(parser,
+                           why == EACCES || why == EPERM ? BRUME_ERR_ACCESS
+                                                         : BRUME_ERR_FILE,
+                           at, NULL, "'%s' could not be opened: %s",
+                           source->name, strerror(why));
     }
     bool done = read_all(parser, at, source, file);
     close(file);
@@ -159,16 +161,16 @@ static struct source *finish(struct parser *parser, struct location at,
     if (!lexer_scan(parser, source) || over_memory(parser, at, source)) {
         return NULL;
     }
-    parser->source_bytes += source->length
-        + source->room * sizeof *source->token;
+    parser->source_bytes += source->length +
+                            source->room * sizeof *source->token;
     return source;
 }
 
 static const char *resolve(struct parser *parser, const char *path)
 {
     char real[PATH_MAX];
-    return realpath(path, real)
-        ? arena_copy(&parser->arena, real, strlen(real)) : NULL;
+    return realpath(path, real) ? arena_copy(&parser->arena, real, strlen(real))
+                                : NULL;
 }
 
 struct source *source_open_scene(struct parser *parser)
@@ -178,8 +180,8 @@ struct source *source_open_scene(struct parser *parser)
         return source_open_path(parser, nowhere, parser->in->path);
     }
     struct source *source = add(parser, nowhere, parser->in->path);
-    return source && copy_text(parser, source)
-        ? finish(parser, nowhere, source) : NULL;
+    return source && copy_text(parser, source) ? finish(parser, nowhere, source)
+                                               : NULL;
 }
 
 struct source *source_open(struct parser *parser, struct location at,
@@ -207,8 +209,7 @@ struct source *source_open_path(struct parser *parser, struct location at,
 
 /* ---- places ------------------------------------------------------------ */
 
-struct source_point source_locate(const struct source *source,
-                                  uint32_t offset)
+struct source_point source_locate(const struct source *source, uint32_t offset)
 {
     const char *text = source->text;
     const char *end = text + source->length;
@@ -224,7 +225,6 @@ struct source_point source_locate(const struct source *source,
     if (point.end > at && point.end[-1] == '\r') {
         point.end--;
     }
-    point.column = 1 + (int)utf8_count(point.start,
-                                       (size_t)(at - point.start));
+    point.column = 1 + (int)utf8_count(point.start, (size_t)(at - point.start));
     return point;
 }

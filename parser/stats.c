@@ -10,12 +10,13 @@ void stats_line(const struct reel_record *r, FILE *to)
 {
     const struct brume_stats *s = &r->stats;
     const char *name = r->picture ? r->picture : "no picture";
-    double seconds = r->seconds_parse + s->seconds_prepare +
-                     s->seconds_render + r->seconds_write;
+    double seconds = r->seconds_parse + s->seconds_prepare + s->seconds_render +
+                     r->seconds_write;
     char error[32] = "unknown", bytes[32];
     if (isfinite(s->error))
         snprintf(error, sizeof error, "%.2g %%", 100 * s->error);
-    fprintf(to, "%s: %d samples a pixel, error %s, %.3g s (scene %.3g, "
+    fprintf(to,
+            "%s: %d samples a pixel, error %s, %.3g s (scene %.3g, "
             "preparing %.3g, rendering %.3g), %s, %s\n",
             strcmp(name, "-") == 0 ? "standard output" : name, s->spp, error,
             seconds, r->seconds_parse, s->seconds_prepare, s->seconds_render,

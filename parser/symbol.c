@@ -39,8 +39,7 @@ static void grow_buckets(struct symbols *symbols)
 static struct name *add_name(struct symbols *symbols, const char *text,
                              size_t length, uint32_t hash)
 {
-    struct name *name = arena_alloc(symbols->arena,
-                                    sizeof *name + length + 1);
+    struct name *name = arena_alloc(symbols->arena, sizeof *name + length + 1);
     if (!name) {
         return NULL;
     }
@@ -61,8 +60,8 @@ struct name *symbols_name(struct symbols *symbols, const char *text,
 {
     uint32_t hash = hash_word(text, length);
     struct name *name = symbols->bucket[hash & (symbols->buckets - 1)];
-    while (name && (name->hash != hash || name->length != length
-                    || memcmp(name->text, text, length) != 0)) {
+    while (name && (name->hash != hash || name->length != length ||
+                    memcmp(name->text, text, length) != 0)) {
         name = name->chain;
     }
     return name ? name : add_name(symbols, text, length, hash);
@@ -73,15 +72,14 @@ bool symbols_init(struct symbols *symbols, struct arena *arena)
     enum { BUCKETS = 2048 };
     *symbols = (struct symbols){.arena = arena, .buckets = BUCKETS};
     symbols->bucket = arena_array(arena, BUCKETS, sizeof *symbols->bucket);
-    if (!symbols->bucket || !arena_grow(arena, &symbols->scope,
-                                        &symbols->scope_room, 1,
-                                        sizeof(struct symbol *))) {
+    if (!symbols->bucket ||
+        !arena_grow(arena, &symbols->scope, &symbols->scope_room, 1,
+                    sizeof(struct symbol *))) {
         return false;
     }
     for (int i = 0; i < keyword_count; i++) {
         const struct keyword *row = &keyword_table[i];
-        struct name *name = symbols_name(symbols, row->word,
-                                         strlen(row->word));
+        struct name *name = symbols_name(symbols, row->word, strlen(row->word));
         if (!name) {
             return false;
         }
@@ -150,8 +148,8 @@ static struct symbol *add_symbol(struct symbols *symbols, struct name *name,
         symbol = arena_alloc(symbols->arena, sizeof *symbol);
     }
     if (symbol) {
-        *symbol = (struct symbol){.name = name, .outer = name->symbol,
-                                  .next = *head, .level = level};
+        *symbol = (struct symbol){
+            .name = name, .outer = name->symbol, .next = *head, .level = level};
         *head = symbol;
         name->symbol = symbol;
     }
@@ -166,7 +164,8 @@ struct symbol *symbols_declare(struct symbols *symbols, struct name *name)
 struct symbol *symbols_local(struct symbols *symbols, struct name *name)
 {
     return name->symbol && name->symbol->level == symbols->level
-        ? name->symbol : add_symbol(symbols, name, symbols->level);
+               ? name->symbol
+               : add_symbol(symbols, name, symbols->level);
 }
 
 void symbols_undefine(struct name *name)
@@ -194,9 +193,8 @@ const char *symbols_suggest(const struct symbols *symbols,
             size_t distance = diag_distance(name->text, name->length, n->text,
                                             n->length, bound);
             /* Ties go to the first in the alphabet, whatever the hashes. */
-            if (distance <= bound
-                && (!best || distance < bound
-                    || strcmp(n->text, best->text) < 0)) {
+            if (distance <= bound && (!best || distance < bound ||
+                                      strcmp(n->text, best->text) < 0)) {
                 best = n;
                 bound = distance;
             }

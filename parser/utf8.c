@@ -3,15 +3,19 @@
 /* Bytes of a character by its first one; 0: cannot begin one. */
 static size_t size_by_lead(unsigned char lead)
 {
-    return lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2
-        : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+    return lead < 0x80   ? 1
+           : lead < 0xC2 ? 0
+           : lead < 0xE0 ? 2
+           : lead < 0xF0 ? 3
+           : lead < 0xF5 ? 4
+                         : 0;
 }
 
 static bool is_character(uint32_t code, size_t size)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    return code >= least[size] && code <= 0x10FFFF
-        && (code < 0xD800 || code > 0xDFFF);
+    return code >= least[size] && code <= 0x10FFFF &&
+           (code < 0xD800 || code > 0xDFFF);
 }
 
 /* The size of the well-formed character at `text`, or 0. */

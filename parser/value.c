@@ -7,22 +7,22 @@
 static const double EPSILON = 1e-10;
 
 static const char *const kind_name[VALUE_KINDS] = {
-    [VALUE_NONE] = "nothing", [VALUE_NUMBER] = "number",
-    [VALUE_STRING] = "string", [VALUE_ARRAY] = "array",
-    [VALUE_MACRO] = "macro", [VALUE_OBJECT] = "object",
-    [VALUE_TEXTURE] = "texture", [VALUE_PIGMENT] = "pigment",
-    [VALUE_NORMAL] = "normal", [VALUE_FINISH] = "finish",
+    [VALUE_NONE] = "nothing",        [VALUE_NUMBER] = "number",
+    [VALUE_STRING] = "string",       [VALUE_ARRAY] = "array",
+    [VALUE_MACRO] = "macro",         [VALUE_OBJECT] = "object",
+    [VALUE_TEXTURE] = "texture",     [VALUE_PIGMENT] = "pigment",
+    [VALUE_NORMAL] = "normal",       [VALUE_FINISH] = "finish",
     [VALUE_COLOR_MAP] = "color_map", [VALUE_MATERIAL] = "material",
-    [VALUE_INTERIOR] = "interior", [VALUE_MEDIA] = "media",
-    [VALUE_DENSITY] = "density", [VALUE_TRANSFORM] = "transform",
-    [VALUE_CAMERA] = "camera", [VALUE_LIGHT] = "light_source"
-};
+    [VALUE_INTERIOR] = "interior",   [VALUE_MEDIA] = "media",
+    [VALUE_DENSITY] = "density",     [VALUE_TRANSFORM] = "transform",
+    [VALUE_CAMERA] = "camera",       [VALUE_LIGHT] = "light_source"};
 
 const char *value_name(const struct value *value)
 {
     if (value->kind == VALUE_NUMBER) {
-        return value->terms == 1 ? "float"
-            : value->terms == VALUE_TERMS ? "color" : "vector";
+        return value->terms == 1             ? "float"
+               : value->terms == VALUE_TERMS ? "color"
+                                             : "vector";
     }
     return kind_name[value->kind];
 }
@@ -41,8 +41,8 @@ struct value value_vector(int terms, const double *v)
     return value;
 }
 
-struct value value_color(double red, double green, double blue,
-                         double filter, double transmit)
+struct value value_color(double red, double green, double blue, double filter,
+                         double transmit)
 {
     double v[VALUE_TERMS] = {red, green, blue, filter, transmit};
     return value_vector(VALUE_TERMS, v);
@@ -88,6 +88,7 @@ static bool equal(double a, double b)
 static double combine(enum value_operator op, double a, double b)
 {
     switch (op) {
+    /* clang-format off */
     case VALUE_ADD: return a + b;
     case VALUE_SUBTRACT: return a - b;
     case VALUE_MULTIPLY: return a * b;
@@ -100,6 +101,7 @@ static double combine(enum value_operator op, double a, double b)
     case VALUE_GREATER: return a > b;
     case VALUE_AND: return value_is_true(a) && value_is_true(b);
     case VALUE_OR: return value_is_true(a) || value_is_true(b);
+        /* clang-format on */
     }
     return 0;
 }
@@ -150,6 +152,6 @@ int value_compare_strings(struct string a, struct string b)
     if (i < a.length) {
         return (int)utf8_decode(a.text + i, a.length - i, &step);
     }
-    return j < b.length
-        ? -(int)utf8_decode(b.text + j, b.length - j, &step) : 0;
+    return j < b.length ? -(int)utf8_decode(b.text + j, b.length - j, &step)
+                        : 0;
 }

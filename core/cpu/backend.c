@@ -12,8 +12,8 @@ struct cpu_state {
     struct backend_frame frame;
     pixel_job job;
     int threads;
-    pixel_counters *count;      /* of each thread                          */
-    uint32_t samples;           /* of this call                            */
+    pixel_counters *count; /* of each thread                          */
+    uint32_t samples;      /* of this call                            */
     atomic_size_t rows_done;
     atomic_bool stop;
 };
@@ -67,8 +67,7 @@ static void sample_row(void *context, size_t index, int thread)
     size_t done = atomic_fetch_add(&s->rows_done, 1) + 1;
     /* Thread 0 is the caller's own. */
     if (thread == 0 &&
-        !s->frame.tick(s->frame.user,
-                      (double)done / (film->y1 - film->y0)))
+        !s->frame.tick(s->frame.user, (double)done / (film->y1 - film->y0)))
         atomic_store(&s->stop, true);
 }
 

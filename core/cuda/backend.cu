@@ -9,17 +9,18 @@ extern "C" {
 #include "core/backend.h"
 }
 
-namespace {
+namespace
+{
 
 /* Samples of one launch: short enough for a stop to be heard within a second
  * or so, long enough that threads find work when their first paths end. */
 const uint32_t samples_per_launch = 8;
-const int block_width = 8, block_height = 4;    /* a warp a tile */
+const int block_width = 8, block_height = 4; /* a warp a tile */
 
 struct cuda_state {
     backend_frame frame;
     device_arena arena;
-    flat_scene scene;           /* its pointers are the device's           */
+    flat_scene scene; /* its pointers are the device's           */
     film_pixel *pixel;
     pixel_counters *count;
     pixel_job job;
@@ -48,16 +49,16 @@ __device__ void add_counters(pixel_counters *sum, const pixel_counters *c)
     add_counter(&sum->rejected, c->rejected);
 }
 
-__global__ void sample_pixels(flat_scene scene, pixel_job job,
-                              film_part part, uint32_t first, uint32_t n,
-                              film_pixel *pixel, pixel_counters *sum)
+__global__ void sample_pixels(flat_scene scene, pixel_job job, film_part part,
+                              uint32_t first, uint32_t n, film_pixel *pixel,
+                              pixel_counters *sum)
 {
     int x = part.x0 + static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     int y = part.y0 + static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
     if (x >= part.x1 || y >= part.y1)
         return;
     size_t at = static_cast<size_t>(y - part.y0) *
-                static_cast<size_t>(part.x1 - part.x0) +
+                    static_cast<size_t>(part.x1 - part.x0) +
                 static_cast<size_t>(x - part.x0);
     pixel_counters count = {};
     pixel_run(&scene, &job, x, y, first, n, &pixel[at], &count);
@@ -70,8 +71,8 @@ bool cuda_available(char *why, size_t size)
     cudaError_t code = cudaGetDeviceCount(&devices);
     if (code == cudaSuccess && devices > 0)
         return true;
-    snprintf(why, size, "%s", code != cudaSuccess ? cudaGetErrorString(code)
-                                                  : "there is none");
+    snprintf(why, size, "%s",
+             code != cudaSuccess ? cudaGetErrorString(code) : "there is none");
     return false;
 }
 
@@ -101,14 +102,14 @@ bool upload(cuda_state *s, brume_error *err)
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
     s->scene = *from;
-#define X(type, name)                                                         \
-    if (good) {                                                               \
-        size_t bytes = from->name##_count * sizeof(type);                     \
-        void *to = device_take(&s->arena, bytes);                             \
-        good = device_check(cudaMemcpy(to, from->name, bytes,                 \
-                                       cudaMemcpyHostToDevice),               \
-                            "uploading " #name, err);                         \
-        s->scene.name = static_cast<const type *>(to);                        \
+#define X(type, name)                                                          \
+    if (good) {                                                                \
+        size_t bytes = from->name##_count * sizeof(type);                      \
+        void *to = device_take(&s->arena, bytes);                              \
+        good = device_check(                                                   \
+            cudaMemcpy(to, from->name, bytes, cudaMemcpyHostToDevice),         \
+            "uploading " #name, err);                                          \
+        s->scene.name = static_cast<const type *>(to);                         \
     }
     SCENE_ARRAYS(X)
 #undef X
@@ -161,9 +162,9 @@ bool launch(cuda_state *s, uint32_t first, uint32_t n, brume_error *err)
 bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
 {
     pixel_counters c;
-    if (!device_check(cudaMemcpy(&c, s->count, sizeof c,
-                                 cudaMemcpyDeviceToHost),
-                      "reading the counters", err))
+    if (!device_check(
+            cudaMemcpy(&c, s->count, sizeof c, cudaMemcpyDeviceToHost),
+            "reading the counters", err))
         return false;
     out->paths += c.track.paths;
     out->rays += c.track.rays;

@@ -3,15 +3,14 @@
 /* Coalesced access begins at multiples of this. */
 static const size_t alignment = 256;
 
-bool device_check(cudaError_t code, const char *stage,
-                  struct brume_error *err)
+bool device_check(cudaError_t code, const char *stage, struct brume_error *err)
 {
     if (code == cudaSuccess)
         return true;
-    return brume_fail(err, code == cudaErrorMemoryAllocation
-                               ? BRUME_ERR_MEMORY : BRUME_ERR_DEVICE,
-                      "the GPU failed in %s: %s", stage,
-                      cudaGetErrorString(code));
+    return brume_fail(
+        err,
+        code == cudaErrorMemoryAllocation ? BRUME_ERR_MEMORY : BRUME_ERR_DEVICE,
+        "the GPU failed in %s: %s", stage, cudaGetErrorString(code));
 }
 
 size_t device_round(size_t bytes)

@@ -89,12 +89,13 @@ static int print_mean(const char *path, char *const part[4])
     struct exr_picture *p = load(path);
     int x0 = atoi(part[0]), y0 = atoi(part[1]);
     int x1 = atoi(part[2]), y1 = atoi(part[3]);
-    bool fits = 0 <= x0 && x0 < x1 && x1 <= p->width && 0 <= y0 && y0 < y1
-        && y1 <= p->height;
+    bool fits = 0 <= x0 && x0 < x1 && x1 <= p->width && 0 <= y0 && y0 < y1 &&
+                y1 <= p->height;
     if (fits)
-        printf("%.9g\n", (mean_of(p, 0, x0, y0, x1, y1)
-                          + mean_of(p, 1, x0, y0, x1, y1)
-                          + mean_of(p, 2, x0, y0, x1, y1)) / 3);
+        printf("%.9g\n",
+               (mean_of(p, 0, x0, y0, x1, y1) + mean_of(p, 1, x0, y0, x1, y1) +
+                mean_of(p, 2, x0, y0, x1, y1)) /
+                   3);
     exr_free(p);
     return fits ? 0 : 2;
 }
@@ -131,8 +132,8 @@ static double beta_fraction(double a, double b, double x)
     double h = d;
     for (int m = 1; m < 500; m++) {
         double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
-        double odd = -(a + m) * (a + b + m) * x
-            / ((a + 2 * m) * (a + 2 * m + 1));
+        double odd = -(a + m) * (a + b + m) * x /
+                     ((a + 2 * m) * (a + 2 * m + 1));
         for (int half = 0; half < 2; half++) {
             double term = half ? odd : even;
             d = 1 + term * d;
@@ -153,16 +154,16 @@ static double student_two_sided(double t, double n)
     double x = n / (n + t * t), a = n / 2, b = 0.5;
     if (!(x < 1))
         return 1;
-    double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x)
-                       + b * log1p(-x));
+    double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) +
+                       b * log1p(-x));
     if (x < (a + 1) / (a + b + 2))
         return front * beta_fraction(a, b, x) / a;
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
 struct bias {
-    double worst;       /* largest |t| of a tile                          */
-    int x, y, channel;  /* where                                          */
+    double worst;      /* largest |t| of a tile                          */
+    int x, y, channel; /* where                                          */
     int tests;
 };
 
@@ -182,8 +183,8 @@ static double tile_t(struct exr_picture *const *run, int runs,
     for (int i = 0; i < runs; i++)
         spread += (value[i] - mean) * (value[i] - mean) / (runs - 1);
     double truth = mean_of(ref, channel, part[0], part[1], part[2], part[3]);
-    return (mean - truth) / sqrt(spread / runs + spread / effort
-                                 + unseen * unseen);
+    return (mean - truth) /
+           sqrt(spread / runs + spread / effort + unseen * unseen);
 }
 
 static struct bias worst_tile(struct exr_picture *const *run, int runs,
@@ -219,8 +220,8 @@ static int print_bias(const char *path_ref, double spp, double run_spp,
     }
     struct bias bias = worst_tile(run, runs, ref, spp / run_spp);
     /* One chance for each tile: Bonferroni's bound. */
-    double chance = fmin(1, bias.tests * student_two_sided(bias.worst,
-                                                           runs - 1));
+    double chance = fmin(1,
+                         bias.tests * student_two_sided(bias.worst, runs - 1));
     printf("worst of %d tiles: t = %.2f at (%d, %d) in %s, chance %.2g\n",
            bias.tests, bias.worst, bias.x, bias.y, channels[bias.channel],
            chance);

@@ -328,10 +328,10 @@ static void api__refuses_what_cannot_be(void **state)
     int nowhere = 7;
     for (int i = 0; i < 4; i++) {
         struct brume_error err = {0};
-        int id = i == 0 ? brume_add_shape(scene, &shape, &err)
-            : i == 1    ? brume_add_medium(scene, &medium, &err)
-            : i == 2    ? brume_add_light(scene, &light, &err)
-                        : brume_add_interior(scene, &nowhere, 1, &err);
+        int id = i == 0   ? brume_add_shape(scene, &shape, &err)
+                 : i == 1 ? brume_add_medium(scene, &medium, &err)
+                 : i == 2 ? brume_add_light(scene, &light, &err)
+                          : brume_add_interior(scene, &nowhere, 1, &err);
         assert_int_equal(id, -1);
         assert_int_not_equal(err.code, BRUME_OK);
         assert_true(strlen(err.text) > 0);

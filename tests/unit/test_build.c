@@ -54,8 +54,8 @@ static void lights(void **state)
                  1, 38, "'radius' is 91");
     expect_error("light_source { 0 }", BRUME_ERR_SCENE, 1, 18,
                  "'light_source' needs its color");
-    expect_error("light_source { 0, 1 pigment { rgb 1 } }", BRUME_ERR_SCENE,
-                 1, 21, "pigment");
+    expect_error("light_source { 0, 1 pigment { rgb 1 } }", BRUME_ERR_SCENE, 1,
+                 21, "pigment");
     expect_warning("light_source { 0, 1 radius 5 }", 1, 1, "without");
 }
 
@@ -73,13 +73,12 @@ static void backgrounds(void **state)
 static void shapes(void **state)
 {
     (void)state;
-    const brume_scene *s = scene(
-        "sphere { <1, 2, 3>, -4 }\n"
-        "box { <1, 0, 1>, <0, 2, 3> inverse }\n"
-        "cylinder { 0, y, 2 open no_shadow }\n"
-        "cone { 0, 1, 2*y, 3 hollow }\n"
-        "plane { y, -1 hollow off }\n"
-        "disc { x, y, 3, 1 } disc { x, y 3 }\n");
+    const brume_scene *s = scene("sphere { <1, 2, 3>, -4 }\n"
+                                 "box { <1, 0, 1>, <0, 2, 3> inverse }\n"
+                                 "cylinder { 0, y, 2 open no_shadow }\n"
+                                 "cone { 0, 1, 2*y, 3 hollow }\n"
+                                 "plane { y, -1 hollow off }\n"
+                                 "disc { x, y, 3, 1 } disc { x, y 3 }\n");
     assert_int_equal(s->shapes, 7);
     assert_int_equal(s->shape[0].kind, BRUME_SHAPE_SPHERE);
     NUMBERS(s->shape[0].a, 1, 2, 3);
@@ -134,8 +133,8 @@ static void transformations(void **state)
         "sphere { 0, 1 rotate 90*z translate <1, 2, 3>\n"
         "  matrix <1, 0, 0, 0, 1, 0, 0, 0, 1, 10, 20, 30> }\n"
         "sphere { 0, 1 transform T }\n"
-        "sphere { 0, 1 transform { T translate z } transform { T inverse } }\n"
-    );
+        "sphere { 0, 1 transform { T translate z } transform { T inverse } "
+        "}\n");
     NUMBERS(s->shape[0].transform[0], 0, -1, 0, 11);
     NUMBERS(s->shape[0].transform[1], 1, 0, 0, 22);
     NUMBERS(s->shape[0].transform[2], 0, 0, 1, 33);
@@ -214,16 +213,15 @@ static void unions_nest_deep(void **state)
 static void meshes(void **state)
 {
     (void)state;
-    const brume_scene *s = scene(
-        "#declare M = mesh {\n"
-        "  triangle { 0, x, y }\n"
-        "  smooth_triangle { 0, z, x, z, y, z\n"
-        "    uv_vectors <0, 0>, <1, 0>, <0, 1> }\n"
-        "  inside_vector y hierarchy on\n"
-        "  pigment { rgb 1 } }\n"
-        "object { M } object { M translate x }\n"
-        "triangle { 0, x, y pigment { rgb x } }\n"
-        "smooth_triangle { 0, z, x, z, y, z }\n");
+    const brume_scene *s = scene("#declare M = mesh {\n"
+                                 "  triangle { 0, x, y }\n"
+                                 "  smooth_triangle { 0, z, x, z, y, z\n"
+                                 "    uv_vectors <0, 0>, <1, 0>, <0, 1> }\n"
+                                 "  inside_vector y hierarchy on\n"
+                                 "  pigment { rgb 1 } }\n"
+                                 "object { M } object { M translate x }\n"
+                                 "triangle { 0, x, y pigment { rgb x } }\n"
+                                 "smooth_triangle { 0, z, x, z, y, z }\n");
     assert_int_equal(s->meshes, 3);
     assert_int_equal(s->shapes, 4);
     assert_int_equal(s->mesh[0].triangles, 2);
@@ -237,8 +235,8 @@ static void meshes(void **state)
     NUMBERS(s->mesh[1].position[2], 0, 1, 0);
     assert_true(s->mesh[2].smooth && !s->mesh[1].smooth);
     expect_error("mesh { }", BRUME_ERR_SCENE, 1, 1, "no triangles");
-    expect_error("mesh { triangle { 0, x, y scale 2 } }", BRUME_ERR_SCENE, 1,
-                 8, "transformed");
+    expect_error("mesh { triangle { 0, x, y scale 2 } }", BRUME_ERR_SCENE, 1, 8,
+                 "transformed");
     expect_error("mesh { triangle { 0, x, y texture { } } }", BRUME_ERR_SCENE,
                  1, 27, "not supported yet");
     expect_error("mesh { triangle { 0, x } }", BRUME_ERR_SCENE, 1, 24,
@@ -277,15 +275,16 @@ static void mesh2s_that_are_wrong(void **state)
     (void)state;
     expect_error("mesh2 { vertex_vectors { 3, 0, x } }", BRUME_ERR_SCENE, 1, 9,
                  "announces 3 items but has 2");
-    expect_error("mesh2 { vertex_vectors { 1, 0, x } }", BRUME_ERR_SCENE, 1,
-                 32, "more");
+    expect_error("mesh2 { vertex_vectors { 1, 0, x } }", BRUME_ERR_SCENE, 1, 32,
+                 "more");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y } }", BRUME_ERR_SCENE, 1,
                  1, "no face_indices");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
-                 "face_indices { 1, <0, 1, 3> } }", BRUME_ERR_SCENE, 1, 1, "");
+                 "face_indices { 1, <0, 1, 3> } }",
+                 BRUME_ERR_SCENE, 1, 1, "");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
-                 "face_indices { 1, <0, 1, 2>, 0 } }", BRUME_ERR_SCENE, 2, 30,
-                 "not supported yet");
+                 "face_indices { 1, <0, 1, 2>, 0 } }",
+                 BRUME_ERR_SCENE, 2, 30, "not supported yet");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
                  "normal_vectors { 1, z } face_indices { 1, <0, 1, 2> } }",
                  BRUME_ERR_SCENE, 1, 1, "needs normal_indices");
@@ -339,8 +338,8 @@ static void pigments(void **state)
     NUMBERS(m->pigment_transform[0], 2, 0, 0, 0);
     m = material_of("pigment { rgb 1 quick_color rgb 0 }");
     assert_int_equal(diag.warnings, 1);
-    expect_error("sphere { 0, 1 pigment { rgb 1, rgb 0 } }", BRUME_ERR_SCENE,
-                 1, 32, "1 color");
+    expect_error("sphere { 0, 1 pigment { rgb 1, rgb 0 } }", BRUME_ERR_SCENE, 1,
+                 32, "1 color");
 }
 
 static void textures(void **state)
@@ -460,8 +459,8 @@ static void globals(void **state)
     NUMBERS(&result.accuracy, 0.02, 5);
     expect_error("global_settings { integrator photon }", BRUME_ERR_SCENE, 1,
                  30, "'photon' is not supported yet");
-    expect_error("global_settings { max_trace_level 257 }", BRUME_ERR_SCENE,
-                 1, 35, "at most 256");
+    expect_error("global_settings { max_trace_level 257 }", BRUME_ERR_SCENE, 1,
+                 35, "at most 256");
     expect_warning("global_settings { assumed_gamma 2.2 }", 1, 19, "2.2");
 }
 
@@ -479,18 +478,17 @@ static void transports(void **state)
 {
     (void)state;
     check_transport("global_settings { transport { media multiple\n"
-                    "  surfaces indirect environment on } }", true, true,
-                    true);
+                    "  surfaces indirect environment on } }",
+                    true, true, true);
     check_transport("global_settings { light_units physical }", true, true,
                     true);
     assert_true(result.scene->globals.physical_units);
     check_transport("global_settings { light_units physical\n"
-                    "  transport { media single environment off } }", false,
-                    true, false);
-    check_transport("global_settings { light_units pov }", false, false,
-                    false);
-    assert_true(parse("global_settings { transport { surfaces direct } }",
-                      true));
+                    "  transport { media single environment off } }",
+                    false, true, false);
+    check_transport("global_settings { light_units pov }", false, false, false);
+    assert_true(
+        parse("global_settings { transport { surfaces direct } }", true));
     assert_true(result.scene->globals.media_multiple &&
                 !result.scene->globals.surfaces_indirect &&
                 result.scene->globals.environment);
@@ -532,6 +530,5 @@ int main(void)
         cmocka_unit_test(extension_words_can_be_names),
     };
 
-    return cmocka_run_group_tests_name("build", tests, NULL,
-                                       forget_scene);
+    return cmocka_run_group_tests_name("build", tests, NULL, forget_scene);
 }

@@ -62,7 +62,8 @@ static void media_that_are_wrong(void **state)
     expect_error("media { fire { temperature { 1 } brightness loud } }",
                  BRUME_ERR_SCENE, 1, 45, "");
     expect_error("media { fire { temperature { 1 } brightness single } }",
-                 BRUME_ERR_SCENE, 1, 45, "'brightness' must be physical, "
+                 BRUME_ERR_SCENE, 1, 45,
+                 "'brightness' must be physical, "
                  "normalized, constant or total, not 'single'");
 }
 
@@ -165,7 +166,7 @@ static struct grid *small_grid(const char *name, bool bad)
     float *voxel = grid_brick(grid, 0, 0, 0, NULL);
     assert_non_null(voxel);
     for (int i = 0; i < 4; i++)
-        voxel[2 + i] = 1;               /* x from 2 to 5, y and z 0        */
+        voxel[2 + i] = 1; /* x from 2 to 5, y and z 0        */
     if (bad) {
         voxel[3] = NAN;
         voxel[4] = -1;
@@ -193,8 +194,8 @@ static int make_files(void **state)
     assert_non_null(mkdtemp(folder));
     assert_true(vdb_save(in_folder("fire.vdb"),
                          (const struct grid *const *)good, 3, 0, NULL));
-    assert_true(vdb_save(in_folder("bad.vdb"),
-                         (const struct grid *const *)&bad, 1, 0, NULL));
+    assert_true(vdb_save(in_folder("bad.vdb"), (const struct grid *const *)&bad,
+                         1, 0, NULL));
     for (int i = 0; i < 3; i++)
         grid_free(good[i]);
     grid_free(bad);
@@ -208,7 +209,7 @@ static int make_files(void **state)
 static int remove_files(void **state)
 {
     static const char *const names[] = {"fire.vdb", "bad.vdb", "two.df3",
-                                        "cut.df3", "one.ply", "one.obj"};
+                                        "cut.df3",  "one.ply", "one.obj"};
 
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlink(in_folder(names[i]));
@@ -266,8 +267,7 @@ static void vdb_files(void **state)
     assert_int_equal(s->grids, 3);
     assert_int_equal(m->densities, 2);
     assert_int_equal(m->density[0], m->density[1]);
-    assert_string_equal(s->grid[s->field[m->density[0]].grid].name,
-                        "density");
+    assert_string_equal(s->grid[s->field[m->density[0]].grid].name, "density");
     assert_string_equal(s->grid[s->field[m->fire.temperature].grid].name,
                         "temperature");
     assert_string_equal(s->grid[s->field[m->fire.amount].grid].name, "flame");
@@ -308,8 +308,8 @@ static void files_that_are_wrong(void **state)
     expect_error("media { density { density_file vdb \"one.ply\" } }",
                  BRUME_ERR_FILE, 1, 36, "");
     expect_error("media { density { density_file df3 \"two.df3\" "
-                 "interpolate 2 } }", BRUME_ERR_SCENE, 1, 36,
-                 "not supported yet");
+                 "interpolate 2 } }",
+                 BRUME_ERR_SCENE, 1, 36, "not supported yet");
     expect_error("media { density { density_file vdb \"fire.vdb\" up x } }",
                  BRUME_ERR_SCENE, 1, 50, "y or z");
     expect_error("mesh { ply \"none.ply\" }", BRUME_ERR_FILE, 1, 12,

@@ -31,9 +31,9 @@ static void test_camera__perspective(void **state)
     camera_ray(&c, 0.0f, 0.0f, &o, &d);
     check(o, 1, 2, 3);
     check(d, 0, 0, 1);
-    camera_ray(&c, 0.5f, 0.0f, &o, &d);     /* right edge: (2, 0, 2) */
+    camera_ray(&c, 0.5f, 0.0f, &o, &d); /* right edge: (2, 0, 2) */
     check(d, 0.70710678f, 0, 0.70710678f);
-    camera_ray(&c, -0.5f, 0.5f, &o, &d);    /* top left: (-2, 0.5, 2) */
+    camera_ray(&c, -0.5f, 0.5f, &o, &d); /* top left: (-2, 0.5, 2) */
     check(d, -0.69631062f, 0.17407766f, 0.69631062f);
 }
 

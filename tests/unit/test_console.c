@@ -34,7 +34,7 @@ static FILE *said;
 
 static bool open_with(const char *const *word, bool terminal)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     int count = 0;
     while (word[count])
         count++;
@@ -46,7 +46,7 @@ static bool open_with(const char *const *word, bool terminal)
     return console_open(&console, &options, said, terminal, &err);
 }
 
-#define OPEN(...)                                                             \
+#define OPEN(...)                                                              \
     assert_true(open_with((const char *const[]){__VA_ARGS__, NULL}, false))
 
 static void close_all(void)
@@ -70,9 +70,12 @@ static void assert_file(const char *path, const char *expected)
 static void add_warning(const char *text, int line)
 {
     diag_add(&diag, &(struct diag_item){
-        .severity = DIAG_WARNING, .text = text, .file = "s.pov",
-        .line = line, .column = 1,
-    });
+                        .severity = DIAG_WARNING,
+                        .text = text,
+                        .file = "s.pov",
+                        .line = line,
+                        .column = 1,
+                    });
 }
 
 /* ---- cases ------------------------------------------------------------- */
@@ -127,15 +130,19 @@ static void test_console__copies(void **state)
 static void test_console__no_file(void **state)
 {
     (void)state;
-    const char *const words[] = { "s.pov", "+GDnowhere/debug.txt", NULL };
+    const char *const words[] = {"s.pov", "+GDnowhere/debug.txt", NULL};
     assert_false(open_with(words, false));
     close_all();
 }
 
 static const struct reel_record record = {
     .picture = "a.png",
-    .stats = { .backend = "cpu", .spp = 16, .error = 0.034,
-               .seconds_prepare = 0.25, .seconds_render = 2, .bytes = 2048 },
+    .stats = {.backend = "cpu",
+              .spp = 16,
+              .error = 0.034,
+              .seconds_prepare = 0.25,
+              .seconds_render = 2,
+              .bytes = 2048},
     .seconds_parse = 0.5,
     .seconds_write = 0.25,
 };
@@ -155,11 +162,11 @@ static void test_console__frames(void **state)
     console_finished(&console, &record);
     close_all();
     assert_file("said", line);
-    assert_true(open_with((const char *const[]){ "s.pov", NULL }, true));
+    assert_true(open_with((const char *const[]){"s.pov", NULL}, true));
     console_finished(&console, &record);
     close_all();
     assert_file("said", line);
-    assert_true(open_with((const char *const[]){ "s.pov", "-V", NULL }, true));
+    assert_true(open_with((const char *const[]){"s.pov", "-V", NULL}, true));
     console_finished(&console, &record);
     close_all();
     assert_file("said", "");
@@ -168,9 +175,12 @@ static void test_console__frames(void **state)
 static void test_console__progress(void **state)
 {
     (void)state;
-    struct frames frames = { .animation = true, .last = 9 };
+    struct frames frames = {.animation = true, .last = 9};
     struct brume_progress progress = {
-        .stage = "path", .fraction = 1, .seconds = 2, .rate = 1e6,
+        .stage = "path",
+        .fraction = 1,
+        .seconds = 2,
+        .rate = 1e6,
         .item = "paths",
     };
     char text[256] = "";

@@ -58,7 +58,7 @@ static int clamp(int i, int n)
 
 static void check_grid(int nx, int ny, int nz, int bytes, uint32_t largest)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     write_file(nx, ny, nz, bytes, largest);
     struct grid *g = df3_load(path, GRID_TRILINEAR, &err);
     if (!g)
@@ -67,7 +67,8 @@ static void check_grid(int nx, int ny, int nz, int bytes, uint32_t largest)
         for (int y = -1; y <= ny; y++)
             for (int x = -1; x <= nx; x++) {
                 double v = truth(clamp(x, nx), clamp(y, ny), clamp(z, nz),
-                                 largest) / (double)largest;
+                                 largest) /
+                           (double)largest;
                 assert_true(grid_sample(g, x, y, z) == (float)v);
             }
     assert_true(grid_sample(g, -2, 0, 0) == 0);
@@ -109,7 +110,7 @@ static void test_df3__full_scale_is_one(void **state)
 
 static void refused(const char *word)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(df3_load(path, GRID_TRILINEAR, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
     if (!strstr(err.text, word))
@@ -136,10 +137,10 @@ static void test_df3__wrong_sizes_are_named(void **state)
     put(f, UINT32_MAX, 4);
     fclose(f);
     refused("65535 x 65535 x 65535");
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(df3_load("/no/such.df3", GRID_NEAREST, &err));
     assert_non_null(strstr(err.text, "No such file"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_null(df3_load("/tmp", GRID_NEAREST, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
 }

@@ -22,8 +22,7 @@ static void assert_excerpt(const char *line, size_t at, const char *want)
 {
     struct arena arena;
     arena_init(&arena, 0);
-    char *text = diag_excerpt(&arena, line, line + strlen(line), line + at,
-                              7);
+    char *text = diag_excerpt(&arena, line, line + strlen(line), line + at, 7);
     assert_string_equal(text, want);
     arena_release(&arena);
 }
@@ -32,16 +31,20 @@ static void test_an_item_in_full(void **state)
 {
     (void)state;
     struct diag diag;
-    struct diag_item item = {
-        .severity = DIAG_ERROR, .code = BRUME_ERR_FILE, .file = "a.pov",
-        .line = 3, .column = 4, .text = "wrong", .excerpt = "x\n^\n",
-        .trace = "b.pov:1: included from here\n", .hint = "do it"
-    };
+    struct diag_item item = {.severity = DIAG_ERROR,
+                             .code = BRUME_ERR_FILE,
+                             .file = "a.pov",
+                             .line = 3,
+                             .column = 4,
+                             .text = "wrong",
+                             .excerpt = "x\n^\n",
+                             .trace = "b.pov:1: included from here\n",
+                             .hint = "do it"};
     diag_init(&diag);
     diag_add(&diag, &item);
     char *text = written(&diag);
     assert_string_equal(text, "a.pov:3:4: error: wrong\nx\n^\n"
-                        "b.pov:1: included from here\nhint: do it\n");
+                              "b.pov:1: included from here\nhint: do it\n");
     assert_int_equal(diag.code, BRUME_ERR_FILE);
     struct brume_error err = {0};
     diag_to_error(&diag, &err);
@@ -75,8 +78,8 @@ static void test_many_warnings_are_counted(void **state)
     diag_init(&diag);
     diag.warning_limit = 2;
     for (int i = 0; i < 5; i++) {
-        diag_add(&diag, &(struct diag_item){.severity = DIAG_WARNING,
-                                            .text = "w"});
+        diag_add(&diag,
+                 &(struct diag_item){.severity = DIAG_WARNING, .text = "w"});
     }
     char *text = written(&diag);
     assert_string_equal(text, "warning: w\nwarning: w\n3 more warnings\n");
@@ -123,8 +126,6 @@ int main(void)
         cmocka_unit_test(test_an_item_in_full),
         cmocka_unit_test(test_the_first_error_gives_the_code),
         cmocka_unit_test(test_many_warnings_are_counted),
-        cmocka_unit_test(test_excerpts),
-        cmocka_unit_test(test_long_excerpts)
-    };
+        cmocka_unit_test(test_excerpts), cmocka_unit_test(test_long_excerpts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

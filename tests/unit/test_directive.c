@@ -15,7 +15,7 @@
 /* ---- reading a text ---------------------------------------------------- */
 
 struct outcome {
-    int code;               /* BRUME_OK, or that of the first error        */
+    int code; /* BRUME_OK, or that of the first error        */
     int line, column;
     char text[256];
 };
@@ -44,7 +44,8 @@ static struct outcome read_input(const struct parse_input *in)
 
 static struct outcome read_bytes(const char *text, size_t length)
 {
-    struct parse_input in = {.path = "scene.pov", .text = text,
+    struct parse_input in = {.path = "scene.pov",
+                             .text = text,
                              .length = length,
                              .ambient = PARSE_AMBIENT_INIT};
     in.limits.iterations = 10000;
@@ -83,8 +84,7 @@ static void test_brackets_are_limited(void **state)
     (void)state;
     const char *const unit[] = {"(", "-", "<", "sin(", "rgb ", "(1?", "!"};
     for (size_t i = 0; i < sizeof unit / sizeof *unit; i++) {
-        struct outcome got = read_repeated("#declare A = ", unit[i], DEEP,
-                                           "");
+        struct outcome got = read_repeated("#declare A = ", unit[i], DEEP, "");
         assert_int_equal(got.code, BRUME_ERR_LIMIT);
         assert_non_null(strstr(got.text, "nested deeper"));
     }
@@ -94,7 +94,8 @@ static void test_indices_are_limited(void **state)
 {
     (void)state;
     struct outcome got = read_repeated("#declare A = array[1] {0}\n"
-                                       "#declare B = ", "A[", DEEP, "");
+                                       "#declare B = ",
+                                       "A[", DEEP, "");
     assert_int_equal(got.code, BRUME_ERR_LIMIT);
 }
 
@@ -180,8 +181,8 @@ static void test_every_byte_alone(void **state)
 {
     (void)state;
     for (int c = 0; c < 256; c++) {
-        char text[] = {'#', 'd', 'e', 'b', 'u', 'g', ' ', '"', (char)c, '"',
-                       (char)c};
+        char text[] = {'#', 'd', 'e',     'b', 'u',    'g',
+                       ' ', '"', (char)c, '"', (char)c};
         read_bytes(text, sizeof text);
     }
 }
@@ -232,11 +233,13 @@ static void write_file(const char *path, const char *text)
     fclose(file);
 }
 
-static struct outcome read_file_in(const char *path,
-                                   const char *const *allowed, size_t count)
+static struct outcome read_file_in(const char *path, const char *const *allowed,
+                                   size_t count)
 {
-    struct parse_input in = {.path = path, .ambient = PARSE_AMBIENT_INIT,
-                             .allow_read = allowed, .allow_reads = count};
+    struct parse_input in = {.path = path,
+                             .ambient = PARSE_AMBIENT_INIT,
+                             .allow_read = allowed,
+                             .allow_reads = count};
     return read_input(&in);
 }
 
@@ -299,8 +302,7 @@ static void test_pipes_are_no_texts(void **state)
     (void)state;
     assert_int_equal(mkfifo("scene/pipe.inc", 0600), 0);
     write_file("scene/d.pov", "#include \"pipe.inc\"");
-    assert_int_equal(read_file_in("scene/d.pov", NULL, 0).code,
-                     BRUME_ERR_FILE);
+    assert_int_equal(read_file_in("scene/d.pov", NULL, 0).code, BRUME_ERR_FILE);
 }
 
 static void test_files_next_to_an_included_one(void **state)
@@ -325,8 +327,10 @@ static void test_a_scene_that_is_not_there(void **state)
 static void test_a_header_is_read_first(void **state)
 {
     (void)state;
-    struct parse_input in = {.path = "scene.pov", .text = "#debug Greeting",
-                             .length = 15, .header = "header.inc",
+    struct parse_input in = {.path = "scene.pov",
+                             .text = "#debug Greeting",
+                             .length = 15,
+                             .header = "header.inc",
                              .ambient = PARSE_AMBIENT_INIT};
     assert_int_equal(read_input(&in).code, BRUME_ERR_FILE);
     write_file("header.inc", "#declare Greeting = \"hello\";");
@@ -346,9 +350,12 @@ static void test_the_caller_stops_it(void **state)
     (void)state;
     static const char text[] = "#for (I, 0, 1e9) #end";
     int asked = 0;
-    struct parse_input in = {.path = "scene.pov", .text = text,
-                             .length = sizeof text - 1, .stopped = stop,
-                             .user = &asked, .ambient = PARSE_AMBIENT_INIT};
+    struct parse_input in = {.path = "scene.pov",
+                             .text = text,
+                             .length = sizeof text - 1,
+                             .stopped = stop,
+                             .user = &asked,
+                             .ambient = PARSE_AMBIENT_INIT};
     assert_int_equal(read_input(&in).code, BRUME_STOPPED);
 }
 
@@ -356,7 +363,8 @@ static void test_time_is_limited(void **state)
 {
     (void)state;
     static const char text[] = "#while (1) #end";
-    struct parse_input in = {.path = "scene.pov", .text = text,
+    struct parse_input in = {.path = "scene.pov",
+                             .text = text,
                              .length = sizeof text - 1,
                              .ambient = PARSE_AMBIENT_INIT};
     in.limits.seconds = 0.05;
@@ -374,7 +382,8 @@ static void test_memory_of_every_size(void **state)
         "#end\n#declare D = array[300] #for (I,0,299) #declare D[I] = "
         "<I,I,I>; #end #declare S = \"x\"; M(1, S)\n"
         "#declare R = seed(1); #if (rand(R) < Undeclared) #end";
-    struct parse_input in = {.path = "scene.pov", .text = text,
+    struct parse_input in = {.path = "scene.pov",
+                             .text = text,
                              .length = sizeof text - 1,
                              .ambient = PARSE_AMBIENT_INIT};
     int limited = 0, complete = 0;
@@ -383,8 +392,7 @@ static void test_memory_of_every_size(void **state)
         struct outcome got = read_input(&in);
         limited += got.code == BRUME_ERR_LIMIT;
         complete += got.code == BRUME_ERR_SCENE;
-        assert_true(got.code == BRUME_ERR_LIMIT
-                    || got.code == BRUME_ERR_SCENE);
+        assert_true(got.code == BRUME_ERR_LIMIT || got.code == BRUME_ERR_SCENE);
     }
     assert_true(limited > 100);
     assert_true(complete > 0);
@@ -405,8 +413,7 @@ int main(void)
         cmocka_unit_test(test_broken_texts),
         cmocka_unit_test(test_the_caller_stops_it),
         cmocka_unit_test(test_time_is_limited),
-        cmocka_unit_test(test_memory_of_every_size)
-    };
+        cmocka_unit_test(test_memory_of_every_size)};
     const struct CMUnitTest files[] = {
         cmocka_unit_test(test_links_are_followed_first),
         cmocka_unit_test(test_a_folder_of_a_like_name_is_another),
@@ -414,9 +421,7 @@ int main(void)
         cmocka_unit_test(test_pipes_are_no_texts),
         cmocka_unit_test(test_files_next_to_an_included_one),
         cmocka_unit_test(test_a_scene_that_is_not_there),
-        cmocka_unit_test(test_a_header_is_read_first)
-    };
+        cmocka_unit_test(test_a_header_is_read_first)};
     int failed = cmocka_run_group_tests(texts, NULL, NULL);
-    return failed + cmocka_run_group_tests(files, enter_folder,
-                                           leave_folder);
+    return failed + cmocka_run_group_tests(files, enter_folder, leave_folder);
 }

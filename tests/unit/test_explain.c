@@ -11,12 +11,15 @@
 static const struct brume_plan plan = {
     .stages = 2,
     .notes = 2,
-    .stage = {
-        { "load", true, "two media read grids, which are long enough to be "
-                        "told of in more than one line", 5 << 20 },
-        { "accel", false, "there is no geometry", 0 },
-    },
-    .note = { "fire.vdb: density 0 to 1.5", "kelvin 300 to 1800" },
+    .stage =
+        {
+            {"load", true,
+             "two media read grids, which are long enough to be "
+             "told of in more than one line",
+             5 << 20},
+            {"accel", false, "there is no geometry", 0},
+        },
+    .note = {"fire.vdb: density 0 to 1.5", "kelvin 300 to 1800"},
 };
 
 static void test_explain__text(void **state)
@@ -43,7 +46,7 @@ static void test_explain__text(void **state)
 static void test_explain__json(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     char *text = explain_json(&plan, &err);
     assert_non_null(text);
     assert_non_null(strstr(text, "\"name\": \"load\""));

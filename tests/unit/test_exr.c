@@ -10,7 +10,7 @@
 #include <cmocka.h>
 #include "lib/exr.h"
 
-enum { WIDTH = 37, HEIGHT = 35 };       /* neither is whole blocks of 16   */
+enum { WIDTH = 37, HEIGHT = 35 }; /* neither is whole blocks of 16   */
 
 static char path[] = "/tmp/brume-test-XXXXXX";
 static float rgba[HEIGHT][WIDTH][4];
@@ -23,8 +23,8 @@ static int set_up(void **state)
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             for (int c = 0; c < 4; c++)
-                rgba[y][x][c] = 0.1f * (float)x + 10.0f * (float)y + 1e-3f *
-                                (float)c;
+                rgba[y][x][c] = 0.1f * (float)x + 10.0f * (float)y +
+                                1e-3f * (float)c;
             depth[y][x] = 1e6f + (float)(x * y);
         }
     rgba[3][4][0] = NAN;
@@ -40,24 +40,26 @@ static int tear_down(void **state)
 }
 
 static const struct image_channel channels[] = {
-    { "R", &rgba[0][0][0], 4, 4 * WIDTH },
-    { "G", &rgba[0][0][1], 4, 4 * WIDTH },
-    { "B", &rgba[0][0][2], 4, 4 * WIDTH },
-    { "A", &rgba[0][0][3], 4, 4 * WIDTH },
-    { "Z", &depth[0][0], 1, WIDTH },
+    {"R", &rgba[0][0][0], 4, 4 * WIDTH}, {"G", &rgba[0][0][1], 4, 4 * WIDTH},
+    {"B", &rgba[0][0][2], 4, 4 * WIDTH}, {"A", &rgba[0][0][3], 4, 4 * WIDTH},
+    {"Z", &depth[0][0], 1, WIDTH},
 };
 
 static struct image whole(void)
 {
-    struct image image = { .width = WIDTH, .height = HEIGHT, .x1 = WIDTH,
-                           .y1 = HEIGHT, .channel = channels, .channels = 5 };
+    struct image image = {.width = WIDTH,
+                          .height = HEIGHT,
+                          .x1 = WIDTH,
+                          .y1 = HEIGHT,
+                          .channel = channels,
+                          .channels = 5};
     return image;
 }
 
 static struct exr_picture *save_and_load(const struct image *image)
 {
-    static const struct exr_text text[] = { { "software", "Brume" } };
-    struct brume_error err = { 0 };
+    static const struct exr_text text[] = {{"software", "Brume"}};
+    struct brume_error err = {0};
     if (!exr_save(path, image, text, 1, &err))
         fail_msg("%s", err.text);
     struct exr_picture *p = exr_load(path, &err);
@@ -80,11 +82,11 @@ static void test_exr__round_trip_is_exact(void **state)
     assert_int_equal(p->height, HEIGHT);
     assert_int_equal(p->full_width, WIDTH);
     assert_int_equal(p->channels, 5);
-    static const char *const names[] = { "R", "G", "B", "A" };
+    static const char *const names[] = {"R", "G", "B", "A"};
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         for (int c = 0; c < 4; c++)
-            assert_true(same(exr_plane(p, names[c])[i],
-                             (&rgba[0][0][0])[4 * i + c]));
+            assert_true(
+                same(exr_plane(p, names[c])[i], (&rgba[0][0][0])[4 * i + c]));
         assert_true(same(exr_plane(p, "Z")[i], (&depth[0][0])[i]));
     }
     assert_null(exr_plane(p, "none"));
@@ -108,8 +110,7 @@ static void test_exr__region_keeps_the_full_size(void **state)
     for (int y = 0; y < 60; y++)
         for (int x = 0; x < 50; x++) {
             bool in = x >= 5 && x < 5 + WIDTH && y >= 14 && y < 14 + HEIGHT;
-            assert_true(green[y * 50 + x] ==
-                        (in ? rgba[y - 14][x - 5][1] : 0));
+            assert_true(green[y * 50 + x] == (in ? rgba[y - 14][x - 5][1] : 0));
         }
     exr_free(p);
 }
@@ -151,7 +152,7 @@ static void test_exr__broken_files_are_errors(void **state)
     exr_free(save_and_load(&image));
     size_t n = read_bytes(first, sizeof first);
     for (size_t cut = 0; cut < n; cut += n / 40) {
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         write_bytes(first, cut);
         assert_null(exr_load(path, &err));
         assert_int_equal(err.code, BRUME_ERR_FILE);
@@ -161,10 +162,10 @@ static void test_exr__broken_files_are_errors(void **state)
     for (int i = 0; i < 400; i++) {
         memcpy(second, first, n);
         random = random * 1664525 + 1013904223;
-        second[(random >> 8) % (i % 2 ? n : 600)] ^= (unsigned char)
-                                                     (1 << i % 8);
+        second[(random >> 8) % (i % 2 ? n : 600)] ^= (unsigned char)(1
+                                                                     << i % 8);
         write_bytes(second, n);
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         struct exr_picture *p = exr_load(path, &err);
         assert_true(p || err.code != BRUME_OK);
         exr_free(p);
@@ -175,14 +176,14 @@ static void test_exr__errors_name_the_file(void **state)
 {
     (void)state;
     struct image image = whole();
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(exr_load("/no/such.exr", &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
     assert_non_null(strstr(err.text, "/no/such.exr"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(exr_save("/no/such.exr", &image, NULL, 0, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     image.x1 = WIDTH + 1;
     assert_false(exr_save(path, &image, NULL, 0, &err));
     assert_int_equal(err.code, BRUME_ERR_USAGE);
@@ -194,7 +195,7 @@ static void test_exr__errors_name_the_file(void **state)
 static void test_exr__reads_tiles_halves_and_integers(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct exr_picture *p = exr_load("tests/data/tiled_half.exr", &err);
     if (!p)
         fail_msg("%s", err.text);

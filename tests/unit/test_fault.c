@@ -12,7 +12,7 @@
 #include <string.h>
 
 #ifndef __SANITIZE_ADDRESS__
-static long left = -1;      /* allocations until one fails; < 0: none does */
+static long left = -1; /* allocations until one fails; < 0: none does */
 
 static bool fails(void)
 {
@@ -53,7 +53,8 @@ static const char scene[] =
  * many. */
 static bool read_failing(long n)
 {
-    struct parse_input in = {.path = "scene.pov", .text = scene,
+    struct parse_input in = {.path = "scene.pov",
+                             .text = scene,
                              .length = sizeof scene - 1,
                              .ambient = PARSE_AMBIENT_INIT};
     struct parse_result result;
@@ -89,8 +90,6 @@ static void test_each_allocation(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_allocation)
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_allocation)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

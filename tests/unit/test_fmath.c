@@ -20,8 +20,12 @@ static double ulps(float got, double truth)
     if (isnan(truth) || isnan(got))
         return isnan(truth) && isnan(got) ? 0.0 : INFINITY;
     if (got == near)
-        return isinf(near) ? 0.0 : fabs(got - truth)
-            / ldexp(1.0, fmax(ilogb(truth == 0.0 ? 1.0 : truth), -126) - 23);
+        return isinf(near)
+                   ? 0.0
+                   : fabs(got - truth) /
+                         ldexp(1.0,
+                               fmax(ilogb(truth == 0.0 ? 1.0 : truth), -126) -
+                                   23);
     if (isinf(near) && fabsf(got) == HUGE_VALF)
         return INFINITY;
     if (isinf(near) || isinf(got))
@@ -47,11 +51,11 @@ static double worst(const char *name, float (*f)(float),
             at = (uint32_t)u;
         }
     }
-    print_message("%s: %.3f ulp at %a\n", name, most,
-                  fm_from_bits(at));
+    print_message("%s: %.3f ulp at %a\n", name, most, fm_from_bits(at));
     return most;
 }
 
+/* clang-format off */
 static float exp_f(float x) { return fm_exp(x); }
 static float expm1_f(float x) { return fm_expm1(x); }
 static float log_f(float x) { return fm_log(x); }
@@ -60,6 +64,7 @@ static float sin_f(float x) { return fm_sin(x); }
 static float cos_f(float x) { return fm_cos(x); }
 static float acos_f(float x) { return fm_acos(x); }
 static float atan_f(float x) { return fm_atan2(x, 1.0f); }
+/* clang-format on */
 
 static void test_ulps(void **state)
 {
@@ -169,8 +174,8 @@ static void test_specials(void **state)
 static void test_atan2_specials(void **state)
 {
     (void)state;
-    const float v[] = { 0.0f, -0.0f, 1.0f, -1.0f, INFINITY, -INFINITY,
-                        1e-45f, 3e38f, -3e38f };
+    const float v[] = {0.0f,      -0.0f,  1.0f,  -1.0f, INFINITY,
+                       -INFINITY, 1e-45f, 3e38f, -3e38f};
     const int n = (int)(sizeof v / sizeof *v);
     for (int i = 0; i < n * n; i++) {
         float y = v[i / n], x = v[i % n];
@@ -182,9 +187,9 @@ static void test_atan2_specials(void **state)
 static void test_pow_specials(void **state)
 {
     (void)state;
-    const float x[] = { 0.0f, 1e-45f, 0.5f, 1.0f, 2.0f, 3e38f, INFINITY };
-    const float y[] = { -INFINITY, -3e38f, -2.0f, -0.0f, 0.0f, 1e-45f, 1.0f,
-                        2.0f, 3e38f, INFINITY };
+    const float x[] = {0.0f, 1e-45f, 0.5f, 1.0f, 2.0f, 3e38f, INFINITY};
+    const float y[] = {-INFINITY, -3e38f, -2.0f, -0.0f, 0.0f,
+                       1e-45f,    1.0f,   2.0f,  3e38f, INFINITY};
     for (size_t i = 0; i < sizeof x / sizeof *x; i++)
         for (size_t j = 0; j < sizeof y / sizeof *y; j++)
             assert_true(ulps(fm_pow(x[i], y[j]), pow(x[i], y[j])) <= 2.0);

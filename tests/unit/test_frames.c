@@ -13,8 +13,7 @@
 static struct options options;
 static struct frames frames;
 
-#define READ(...)                                                             \
-    read_words((const char *const[]){__VA_ARGS__, NULL})
+#define READ(...) read_words((const char *const[]){__VA_ARGS__, NULL})
 
 static void read_words(const char *const *word)
 {
@@ -149,7 +148,7 @@ static void test_frames__subset(void **state)
 static void assert_region(int x0, int y0, int x1, int y1)
 {
     int r[4];
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_true(frames_region(&options, r, &err));
     assert_int_equal(r[0], x0);
     assert_int_equal(r[1], y0);
@@ -181,7 +180,7 @@ static void test_frames__region(void **state)
 static void assert_no_region(const char *expected)
 {
     int r[4];
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_false(frames_region(&options, r, &err));
     assert_int_equal(err.code, BRUME_ERR_USAGE);
     assert_string_equal(err.text, expected);

@@ -6,12 +6,12 @@
 #include <cmocka.h>
 #include "lib/grid.h"
 
-static const int32_t origin[3] = { -8, 0, 16 };
-static const int32_t bricks[3] = { 3, 2, 2 };
+static const int32_t origin[3] = {-8, 0, 16};
+static const int32_t bricks[3] = {3, 2, 2};
 
 static struct grid *make(float background)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct grid *g = grid_new(origin, bricks, background, &err);
     assert_non_null(g);
     return g;
@@ -19,7 +19,7 @@ static struct grid *make(float background)
 
 static float *brick(struct grid *g, int x, int y, int z)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     float *voxel = grid_brick(g, x, y, z, &err);
     assert_non_null(voxel);
     return voxel;
@@ -91,15 +91,15 @@ static void test_grid__finish_merges_constants(void **state)
     (void)state;
     struct grid *g = make(1);
     for (int i = 0; i < 512; i++) {
-        brick(g, 0, 0, 0)[i] = 7;           /* constant: becomes a tile    */
-        brick(g, 1, 0, 0)[i] = (float)i;    /* stays                       */
-        brick(g, 2, 0, 0)[i] = 1;           /* equal to the background     */
+        brick(g, 0, 0, 0)[i] = 7;        /* constant: becomes a tile    */
+        brick(g, 1, 0, 0)[i] = (float)i; /* stays                       */
+        brick(g, 2, 0, 0)[i] = 1;        /* equal to the background     */
     }
     assert_true(grid_set_tile(g, 0, 1, 0, 4, NULL));
     assert_true(grid_set_tile(g, 1, 1, 0, 7, NULL));
     assert_true(grid_set_tile(g, 2, 1, 0, 4, NULL));
     assert_true(grid_set_tile(g, 2, 1, 1, 900, NULL));
-    assert_true(grid_set_tile(g, 2, 1, 1, 1, NULL));    /* 900 is unused   */
+    assert_true(grid_set_tile(g, 2, 1, 1, 1, NULL)); /* 900 is unused   */
     grid_finish(g);
     assert_int_equal(g->stored, 1);
     assert_int_equal(g->tiles, 3);
@@ -137,16 +137,16 @@ static void test_grid__absurd_extents_are_refused(void **state)
 {
     (void)state;
     static const int32_t wrong[][6] = {
-        { 0, 0, 0, 1 << 20, 1 << 20, 1 << 20 },
-        { 0, 0, 0, 1024, 1024, 257 },
-        { 0, 0, 0, INT32_MAX, 1, 1 },
-        { 0, 0, 0, 0, 1, 1 },
-        { 0, 0, 0, 1, -1, 1 },
-        { 3, 0, 0, 1, 1, 1 },
-        { INT32_MAX - 7, 0, 0, 2, 1, 1 },
+        {0, 0, 0, 1 << 20, 1 << 20, 1 << 20},
+        {0, 0, 0, 1024, 1024, 257},
+        {0, 0, 0, INT32_MAX, 1, 1},
+        {0, 0, 0, 0, 1, 1},
+        {0, 0, 0, 1, -1, 1},
+        {3, 0, 0, 1, 1, 1},
+        {INT32_MAX - 7, 0, 0, 2, 1, 1},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         assert_null(grid_new(wrong[i], wrong[i] + 3, 0, &err));
         assert_int_equal(err.code, BRUME_ERR_LIMIT);
     }

@@ -11,13 +11,20 @@ static void write_item(const struct ini_item *item, int line, char *out,
                        size_t size)
 {
     switch (item->kind) {
-    case INI_SECTION: snprintf(out, size, "%d[%s] ", line, item->name); break;
+    case INI_SECTION:
+        snprintf(out, size, "%d[%s] ", line, item->name);
+        break;
     case INI_SETTING:
         snprintf(out, size, "%d<%s=%s> ", line, item->name, item->value);
         break;
-    case INI_WORD: snprintf(out, size, "%d<%s> ", line, item->name); break;
-    case INI_BAD: snprintf(out, size, "%d!%s ", line, item->name); break;
-    case INI_END: break;
+    case INI_WORD:
+        snprintf(out, size, "%d<%s> ", line, item->name);
+        break;
+    case INI_BAD:
+        snprintf(out, size, "%d!%s ", line, item->name);
+        break;
+    case INI_END:
+        break;
     }
 }
 

@@ -19,7 +19,7 @@ static void test_json__text(void **state)
     assert_true(json_put_text(array, NULL, "caf\xc3\xa9"));
     assert_true(json_put_text(array, NULL, "caf\xe9"));
     assert_true(json_put(object, "array", array));
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     char *text = json_text(object, &err);
     assert_string_equal(text, "{\n"
                               "  \"z\": \"a \\\"b\\\"\\n\",\n"

@@ -28,13 +28,16 @@ static void scan(struct fixture *f, const char *text)
     size_t length = strlen(text);
     memset(f, 0, sizeof *f);
     diag_init(&f->diag);
-    f->parser = (struct parser){.in = &f->in, .out = &f->out,
-                                .diag = &f->diag, .source = f->table,
+    f->parser = (struct parser){.in = &f->in,
+                                .out = &f->out,
+                                .diag = &f->diag,
+                                .source = f->table,
                                 .sources = 1};
     f->table[0] = &f->source;
     arena_init(&f->parser.arena, 0);
     assert_true(symbols_init(&f->parser.symbols, &f->parser.arena));
-    f->source = (struct source){.name = "text", .folder = "",
+    f->source = (struct source){.name = "text",
+                                .folder = "",
                                 .text = calloc(1, length + 2),
                                 .length = length};
     memcpy(f->source.text, text, length);
@@ -66,22 +69,29 @@ static void assert_kinds(const char *text, const int *kind, size_t count)
 static void test_kinds(void **state)
 {
     (void)state;
-    static const int sphere[] = {TOK_IDENTIFIER, '{', '<', TOK_NUMBER, ',',
-                                 TOK_NUMBER, '>', TOK_DOT, '}', ';'};
-    assert_kinds("Ball { <1, .5>.x };", sphere,
-                 sizeof sphere / sizeof *sphere);
-    static const int relations[] = {TOK_LESS_EQUAL, TOK_GREATER_EQUAL,
-                                    TOK_NOT_EQUAL, '<', '=', '!', '&', '|',
-                                    '?', ':'};
+    static const int sphere[] = {TOK_IDENTIFIER, '{', '<',     TOK_NUMBER, ',',
+                                 TOK_NUMBER,     '>', TOK_DOT, '}',        ';'};
+    assert_kinds("Ball { <1, .5>.x };", sphere, sizeof sphere / sizeof *sphere);
+    static const int relations[] = {TOK_LESS_EQUAL,
+                                    TOK_GREATER_EQUAL,
+                                    TOK_NOT_EQUAL,
+                                    '<',
+                                    '=',
+                                    '!',
+                                    '&',
+                                    '|',
+                                    '?',
+                                    ':'};
     assert_kinds("<= >= != < = ! & | ? :", relations,
                  sizeof relations / sizeof *relations);
     static const int directives[] = {TOK_HASH_DECLARE, TOK_HASH_IF,
                                      TOK_HASH_ELSE, TOK_HASH_END};
     assert_kinds("#declare # if #\telse #end", directives,
                  sizeof directives / sizeof *directives);
-    static const int words[] = {TOK_NUMBER_FUNCTION, TOK_STRING_FUNCTION,
-                                TOK_RGB, TOK_RED, TOK_COLOR, TOK_COLOR,
-                                TOK_DEFINED, TOK_ARRAY, TOK_IDENTIFIER};
+    static const int words[] = {
+        TOK_NUMBER_FUNCTION, TOK_STRING_FUNCTION, TOK_RGB,     TOK_RED,
+        TOK_COLOR,           TOK_COLOR,           TOK_DEFINED, TOK_ARRAY,
+        TOK_IDENTIFIER};
     assert_kinds("sin concat rgbft red color colour defined array Sin", words,
                  sizeof words / sizeof *words);
 }
@@ -151,9 +161,9 @@ static void test_misplaced_directives_are_bad(void **state)
 {
     (void)state;
     static const char *const text[] = {
-        "#end", "#else", "#elseif", "#case", "#range", "#break",
-        "#if #break", "#if #case", "#while #elseif", "#if #else #else"
-    };
+        "#end",           "#else",          "#elseif",    "#case",
+        "#range",         "#break",         "#if #break", "#if #case",
+        "#while #elseif", "#if #else #else"};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         struct fixture f;
         scan(&f, text[i]);
@@ -168,12 +178,12 @@ static void test_words_are_sorted(void **state)
 {
     (void)state;
     for (int i = 1; i < keyword_count; i++) {
-        assert_true(strcmp(keyword_table[i - 1].word, keyword_table[i].word)
-                    < 0);
+        assert_true(strcmp(keyword_table[i - 1].word, keyword_table[i].word) <
+                    0);
     }
     for (int i = 1; i < directive_count; i++) {
-        assert_true(strcmp(directive_table[i - 1].word,
-                           directive_table[i].word) < 0);
+        assert_true(
+            strcmp(directive_table[i - 1].word, directive_table[i].word) < 0);
     }
 }
 
@@ -182,8 +192,8 @@ static void test_functions_are_there(void **state)
     (void)state;
     for (int i = 0; i < keyword_count; i++) {
         int kind = keyword_table[i].kind;
-        assert_int_equal(kind == TOK_NUMBER_FUNCTION
-                         || kind == TOK_STRING_FUNCTION,
+        assert_int_equal(kind == TOK_NUMBER_FUNCTION ||
+                             kind == TOK_STRING_FUNCTION,
                          builtin_exists(keyword_table[i].word));
     }
 }
@@ -193,8 +203,8 @@ static void test_functions_are_there(void **state)
 static void test_characters(void **state)
 {
     (void)state;
-    static const uint32_t code[] = {0, 'a', 0x7F, 0x80, 0x7FF, 0x800, 0xFFFD,
-                                    0x10000, 0x10FFFF};
+    static const uint32_t code[] = {0,     'a',    0x7F,    0x80,    0x7FF,
+                                    0x800, 0xFFFD, 0x10000, 0x10FFFF};
     char text[4];
     size_t size;
     for (size_t i = 0; i < sizeof code / sizeof *code; i++) {
@@ -226,7 +236,6 @@ int main(void)
         cmocka_unit_test(test_misplaced_directives_are_bad),
         cmocka_unit_test(test_words_are_sorted),
         cmocka_unit_test(test_functions_are_there),
-        cmocka_unit_test(test_characters)
-    };
+        cmocka_unit_test(test_characters)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,8 +14,7 @@
 /* ---- camera ------------------------------------------------------------ */
 
 /* Where the ray of pixel (x, y) of 4x3 hits the sphere. */
-static void hit(const struct brume_camera *camera, int x, int y,
-                double out[3])
+static void hit(const struct brume_camera *camera, int x, int y, double out[3])
 {
     double u = (x + 0.5) / 4 - 0.5, v = 0.5 - (y + 0.5) / 3;
     double p[3], d[3], dd = 0, pd = 0, pp = 0;
@@ -38,79 +37,103 @@ struct view {
     const char *says;
     struct camera camera;
     enum camera_fault fault;
-    double corner[3][3];        /* pixels (0, 0), (3, 0), (0, 2)           */
+    double corner[3][3]; /* pixels (0, 0), (3, 0), (0, 2)           */
 };
 
-#define TURNED_Y_30                                                           \
-    .by = {{{0.86602540378443865, 0, 0.5, 0}, {0, 1, 0, 0},                   \
+#define TURNED_Y_30                                                            \
+    .by = {{{0.86602540378443865, 0, 0.5, 0},                                  \
+            {0, 1, 0, 0},                                                      \
             {-0.5, 0, 0.86602540378443865, 0}}}
 #define LOOK_AT(x, y, z) .look_at = {x, y, z}, .has_look_at = true
 
 /* What is left out is as in POV-Ray. */
 static const struct view views[] = {
-    {"camera {}", {.angle = 0}, CAMERA_FINE,
-     {{-427.7, 285.8, 857.5}, {427.7, 285.8, 857.5},
-      {-427.7, -285.8, 857.5}}},
-    {"angle 60", {.angle = 60}, CAMERA_FINE,
-     {{-384.1, 256.7, 886.9}, {384.1, 256.7, 886.9},
-      {-384.1, -256.7, 886.9}}},
-    {"right 2*x angle 60", {.right = {2, 0, 0}, .angle = 60},
+    {"camera {}",
+     {.angle = 0},
      CAMERA_FINE,
-     {{-391.3, 173.9, 903.7}, {391.3, 173.9, 903.7},
-      {-391.3, -173.9, 903.7}}},
+     {{-427.7, 285.8, 857.5}, {427.7, 285.8, 857.5}, {-427.7, -285.8, 857.5}}},
+    {"angle 60",
+     {.angle = 60},
+     CAMERA_FINE,
+     {{-384.1, 256.7, 886.9}, {384.1, 256.7, 886.9}, {-384.1, -256.7, 886.9}}},
+    {"right 2*x angle 60",
+     {.right = {2, 0, 0}, .angle = 60},
+     CAMERA_FINE,
+     {{-391.3, 173.9, 903.7}, {391.3, 173.9, 903.7}, {-391.3, -173.9, 903.7}}},
     {"location look_at sky",
      {.location = {1, 2, -3}, LOOK_AT(0, 1, 5), .sky = {1, 2, 0}},
      CAMERA_FINE,
-     {{-363.6, 341.5, 866.7}, {402.1, -41.3, 914.7},
-      {-612.2, -166.5, 773.0}}},
+     {{-363.6, 341.5, 866.7}, {402.1, -41.3, 914.7}, {-612.2, -166.5, 773.0}}},
     {"location look_at rotate",
      {.location = {1, 2, -3}, LOOK_AT(0, 1, 5), TURNED_Y_30},
      CAMERA_FINE,
      {{-50.3, 180.6, 982.3}, {739.5, 180.5, 648.5}, {-77.8, -388.6, 918.1}}},
     {"right -1.33*x",
-     {.right = {-1.33, 0, 0}, .location = {1, 2, -3},
-      LOOK_AT(0, 1, 5)}, CAMERA_FINE,
+     {.right = {-1.33, 0, 0}, .location = {1, 2, -3}, LOOK_AT(0, 1, 5)},
+     CAMERA_FINE,
      {{316.2, 180.5, 931.4}, {-534.7, 180.6, 825.5}, {325.2, -388.4, 862.2}}},
-    {"look_at along sky", {LOOK_AT(0, 5, 0)}, CAMERA_SKY_AHEAD,
-     {{-427.7, 857.5, -285.8}, {427.7, 857.5, -285.8},
-      {-427.7, 857.5, 285.8}}},
+    {"look_at along sky",
+     {LOOK_AT(0, 5, 0)},
+     CAMERA_SKY_AHEAD,
+     {{-427.7, 857.5, -285.8}, {427.7, 857.5, -285.8}, {-427.7, 857.5, 285.8}}},
     {"look_at along sky, right-handed",
-     {.right = {-4.0 / 3, 0, 0}, LOOK_AT(0, 5, 0)}, CAMERA_SKY_AHEAD,
-     {{-428.6, 857.1, 285.7}, {428.6, 857.1, 285.7},
-      {-428.6, 857.1, -285.7}}},
-    {"direction 2*z look_at", {.direction = {0, 0, 2},
-                               LOOK_AT(1, 0, 5)}, CAMERA_FINE,
+     {.right = {-4.0 / 3, 0, 0}, LOOK_AT(0, 5, 0)},
+     CAMERA_SKY_AHEAD,
+     {{-428.6, 857.1, 285.7}, {428.6, 857.1, 285.7}, {-428.6, 857.1, -285.7}}},
+    {"direction 2*z look_at",
+     {.direction = {0, 0, 2}, LOOK_AT(1, 0, 5)},
+     CAMERA_FINE,
      {{-46.4, 159.7, 986.1}, {422.1, 159.7, 892.4}, {-46.4, -159.7, 986.1}}},
     {"all of them",
-     {.location = {1, 2, -3}, LOOK_AT(0, 1, 5), .angle = 40,
-      .up = {0, 2, 0}, .right = {3, 0, 0}, .direction = {0, 0, 7}},
+     {.location = {1, 2, -3},
+      LOOK_AT(0, 1, 5),
+      .angle = 40,
+      .up = {0, 2, 0},
+      .right = {3, 0, 0},
+      .direction = {0, 0, 7}},
      CAMERA_FINE,
      {{-378.0, 37.8, 925.0}, {139.9, 37.8, 989.4}, {-373.5, -269.3, 887.7}}},
     {"orthographic",
      {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100}},
      CAMERA_FINE,
-     {{-50.37, 33.68, 998.17}, {50.37, 33.68, 998.17},
+     {{-50.37, 33.68, 998.17},
+      {50.37, 33.68, 998.17},
       {-50.37, -33.68, 998.17}}},
     {"orthographic direction 2*z look_at",
-     {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100},
-      .direction = {0, 0, 2}, LOOK_AT(0, 0, 0)}, CAMERA_FINE,
-     {{-24.95, 16.68, 999.54}, {24.95, 16.68, 999.54},
+     {.kind = BRUME_CAMERA_ORTHOGRAPHIC,
+      .location = {0, 0, -100},
+      .direction = {0, 0, 2},
+      LOOK_AT(0, 0, 0)},
+     CAMERA_FINE,
+     {{-24.95, 16.68, 999.54},
+      {24.95, 16.68, 999.54},
       {-24.95, -16.68, 999.54}}},
     {"orthographic right 200*x",
-     {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100},
-      LOOK_AT(0, 0, 0), .right = {200, 0, 0}, .has_right = true},
+     {.kind = BRUME_CAMERA_ORTHOGRAPHIC,
+      .location = {0, 0, -100},
+      LOOK_AT(0, 0, 0),
+      .right = {200, 0, 0},
+      .has_right = true},
      CAMERA_FINE,
      {{-75, 0.32, 997.19}, {75, 0.32, 997.19}, {-75, -0.32, 997.19}}},
     {"orthographic right up angle 60",
-     {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100},
-      LOOK_AT(0, 0, 0), .right = {200, 0, 0}, .up = {0, 150, 0},
-      .has_right = true, .has_up = true, .angle = 60}, CAMERA_FINE,
-     {{-43.29, 28.85, 998.66}, {43.29, 28.85, 998.66},
+     {.kind = BRUME_CAMERA_ORTHOGRAPHIC,
+      .location = {0, 0, -100},
+      LOOK_AT(0, 0, 0),
+      .right = {200, 0, 0},
+      .up = {0, 150, 0},
+      .has_right = true,
+      .has_up = true,
+      .angle = 60},
+     CAMERA_FINE,
+     {{-43.29, 28.85, 998.66},
+      {43.29, 28.85, 998.66},
       {-43.29, -28.85, 998.66}}},
     {"orthographic angle 60, nothing to look at",
-     {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100},
-      .angle = 60}, CAMERA_FINE,
-     {{-43.75, 29.22, 998.63}, {43.75, 29.22, 998.63},
+     {.kind = BRUME_CAMERA_ORTHOGRAPHIC, .location = {0, 0, -100}, .angle = 60},
+     CAMERA_FINE,
+     {{-43.75, 29.22, 998.63},
+      {43.75, 29.22, 998.63},
       {-43.75, -29.22, 998.63}}},
 };
 
@@ -152,8 +175,8 @@ static void cameras_see_what_pov_ray_sees(void **state)
             hit(&camera, pixel[k][0], pixel[k][1], got);
             for (int j = 0; j < 3; j++)
                 if (!(fabs(got[j] - views[i].corner[k][j]) < 0.11))
-                    fail_msg("%s: pixel %d: %.2f, not %.2f", views[i].says,
-                             k, got[j], views[i].corner[k][j]);
+                    fail_msg("%s: pixel %d: %.2f, not %.2f", views[i].says, k,
+                             got[j], views[i].corner[k][j]);
         }
     }
 }

@@ -31,10 +31,10 @@ static void test_obj__faces_of_all_forms(void **state)
 {
     (void)state;
     static const uint32_t corner[][3] = {
-        { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 5 }, { 0, 5, 4 }, { 0, 1, 4 },
-        { 1, 4, 5 }, { 0, 1, 2 },
+        {0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {0, 5, 4},
+        {0, 1, 4}, {1, 4, 5}, {0, 1, 2},
     };
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct mesh *m = obj_load("tests/data/corner.obj", &err);
     if (!m)
         fail_msg("%s", err.text);
@@ -49,7 +49,7 @@ static void test_obj__faces_of_all_forms(void **state)
     assert_int_equal(m->corner_normal[0][0], 0);
     assert_int_equal(m->corner_normal[3][1], 0);
     assert_int_equal(m->corner_normal[4][0], MESH_NONE);
-    assert_int_equal(m->corner_normal[6][0], MESH_NONE);    /* zero normal */
+    assert_int_equal(m->corner_normal[6][0], MESH_NONE); /* zero normal */
     mesh_free(m);
 }
 
@@ -59,7 +59,7 @@ static void refused(const char *text, const char *word)
     assert_non_null(f);
     fputs(text, f);
     fclose(f);
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(obj_load(path, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
     if (!strstr(err.text, word))
@@ -73,7 +73,9 @@ static void test_obj__errors_say_where(void **state)
 {
     (void)state;
     refused("", "no faces");
-    refused("\x7f" "ELF\n\n\n", "no faces");
+    refused("\x7f"
+            "ELF\n\n\n",
+            "no faces");
     refused("v 1 2\n", "line 1: a vertex of 2 numbers");
     refused("v 1 2 x\n", "'x' is not a number");
     refused("v 1 2 inf\n", "coordinate inf");
@@ -88,10 +90,10 @@ static void test_obj__errors_say_where(void **state)
     refused(THREE "f 1/1 2/1 3/1\n", "texture coordinate 1");
     refused(THREE "f 1//1 2 3\n", "normal 1");
     refused(THREE "f /1 2 3\n", "'' is not");
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(obj_load("/no/such.obj", &err));
     assert_non_null(strstr(err.text, "No such file"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_null(obj_load("/tmp", &err));
     assert_non_null(strstr(err.text, "directory"));
 }
@@ -103,7 +105,7 @@ static void test_obj__reads_a_real_mesh(void **state)
         print_message("no " SPOT " here\n");
         skip();
     }
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct mesh *m = obj_load(SPOT, &err);
     if (!m)
         fail_msg("%s", err.text);
@@ -111,7 +113,7 @@ static void test_obj__reads_a_real_mesh(void **state)
     assert_int_equal(m->triangles, 5856);
     assert_int_equal(m->vertices, 2930);
     assert_int_equal(m->uvs, 3225);
-    assert_null(m->corner_normal);      /* the file has none              */
+    assert_null(m->corner_normal); /* the file has none              */
     for (size_t t = 0; t < m->triangles; t++)
         assert_true(m->corner_uv[t][0] != MESH_NONE);
     mesh_free(m);

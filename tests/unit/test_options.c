@@ -13,8 +13,7 @@
 static struct options options;
 static struct diag diag;
 
-#define READ(...)                                                             \
-    read_words((const char *const[]){__VA_ARGS__, NULL})
+#define READ(...) read_words((const char *const[]){__VA_ARGS__, NULL})
 
 static bool read_words(const char *const *word)
 {
@@ -32,12 +31,12 @@ static void done(void)
     diag_release(&diag);
 }
 
-#define ASSERT_ERROR(expected, ...)                                           \
-    do {                                                                      \
-        assert_false(READ(__VA_ARGS__));                                      \
-        assert_int_equal(diag.code, BRUME_ERR_USAGE);                         \
-        assert_string_equal(diag.first->text, expected);                      \
-        done();                                                               \
+#define ASSERT_ERROR(expected, ...)                                            \
+    do {                                                                       \
+        assert_false(READ(__VA_ARGS__));                                       \
+        assert_int_equal(diag.code, BRUME_ERR_USAGE);                          \
+        assert_string_equal(diag.first->text, expected);                       \
+        done();                                                                \
     } while (0)
 
 static void test_options__defaults(void **state)
@@ -62,8 +61,8 @@ static void test_options__switches(void **state)
 {
     (void)state;
     assert_true(READ("+W320", "-h240", "+Is.pov", "-Oout.png", "+ua", "-KC",
-                     "+kff12", "+KFI3", "+KI0.5", "+KF2", "+HIhead.inc",
-                     "+WT2", "+MV3.5", "+SC2", "+EC0.5"));
+                     "+kff12", "+KFI3", "+KI0.5", "+KF2", "+HIhead.inc", "+WT2",
+                     "+MV3.5", "+SC2", "+EC0.5"));
     assert_int_equal(options.width, 320);
     assert_int_equal(options.height, 240);
     assert_string_equal(options.input, "s.pov");
@@ -102,11 +101,11 @@ static void test_options__long(void **state)
 {
     (void)state;
     assert_true(READ("--spp", "64", "--error=0.01", "--time", "2.5",
-                     "--backend", "CPU", "--integrator", "path",
-                     "--transport", "full", "--seed=18446744073709551615",
-                     "--memory", "1.5G", "--stats", "out.json", "--threads",
-                     "3", "--allow-read", "/a", "--allow-read=/b",
-                     "--allow-read", "/a", "--explain=json"));
+                     "--backend", "CPU", "--integrator", "path", "--transport",
+                     "full", "--seed=18446744073709551615", "--memory", "1.5G",
+                     "--stats", "out.json", "--threads", "3", "--allow-read",
+                     "/a", "--allow-read=/b", "--allow-read", "/a",
+                     "--explain=json"));
     assert_int_equal(options.spp, 64);
     assert_true(options.error == 0.01 && options.seconds == 2.5);
     assert_int_equal(options.backend, BRUME_BACKEND_CPU);
@@ -219,10 +218,12 @@ static void test_options__bad_values(void **state)
                  "+W", "320");
     ASSERT_ERROR("Verbose: 'maybe' is neither on nor off", "Verbose=maybe");
     ASSERT_ERROR("Declare: 'foo' is not a number, and only numbers can be "
-                 "declared here", "Declare=N=foo");
+                 "declared here",
+                 "Declare=N=foo");
     ASSERT_ERROR("Declare: '9=1' is not NAME=NUMBER", "Declare=9=1");
     ASSERT_ERROR("--memory: '0' is not a number of bytes, which K, M, G or T "
-                 "may follow", "--memory", "0");
+                 "may follow",
+                 "--memory", "0");
     ASSERT_ERROR("--seed: '-1' is not a whole number from 0 to 2^64 - 1",
                  "--seed=-1");
     ASSERT_ERROR("--spp: a value is missing", "--spp");
@@ -249,7 +250,8 @@ static void test_options__not_yet(void **state)
                  "photon");
     ASSERT_ERROR("--check: 'json' is not supported yet", "--check=json");
     ASSERT_ERROR("+F: file type 'J' is not supported yet; N is PNG, E "
-                 "OpenEXR, P PPM", "+FJ");
+                 "OpenEXR, P PPM",
+                 "+FJ");
 }
 
 static void assert_suggests(const char *word, const char *hint)
@@ -436,7 +438,8 @@ static void test_options__ini_missing(void **state)
     done();
     write_file("w.ini", "Width:22\n");
     ASSERT_ERROR("'Width:22' is neither name=value, nor a switch, nor an INI "
-                 "file", "w.ini");
+                 "file",
+                 "w.ini");
 }
 
 static void test_options__ini_is_found(void **state)

@@ -56,7 +56,7 @@ static void assert_content(const char *name, const char *expected)
 static void test_output__appears_when_complete(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct output *o = output_open(path, &err);
     assert_non_null(o);
     fputs("new", output_stream(o));
@@ -101,12 +101,12 @@ static void test_output__keeps_permissions_and_links(void **state)
 static void test_output__error_names_path_and_reason(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(output_open("/no/such/folder/x.png", &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
     assert_non_null(strstr(err.text, "/no/such/folder/x.png"));
     assert_non_null(strstr(err.text, "No such file or directory"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_null(output_open(folder, &err));
     assert_non_null(strstr(err.text, "Is a directory"));
 }
@@ -117,7 +117,7 @@ static void test_output__full_disk_is_an_error(void **state)
     (void)state;
     if (access("/dev/full", W_OK) != 0)
         skip();
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_false(output_write("/dev/full", "x", 1, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
     assert_non_null(strstr(err.text, "No space left"));
@@ -149,14 +149,14 @@ static void test_thread__runs_each_index_once(void **state)
 {
     (void)state;
     for (int threads = 0; threads < 9; threads++) {
-        struct job job = { .cancel_at = SIZE_MAX };
+        struct job job = {.cancel_at = SIZE_MAX};
         assert_true(parallel_for(threads, COUNT, body, &job, &job.cancel));
         for (int i = 0; i < COUNT; i++)
             assert_int_equal(job.runs[i], 1);
         if (threads > 0)
             assert_in_range(job.highest_thread, 0, threads - 1);
     }
-    struct job none = { .cancel_at = SIZE_MAX };
+    struct job none = {.cancel_at = SIZE_MAX};
     assert_true(parallel_for(4, 0, body, &none, NULL));
     assert_in_range(thread_processors(), 1, 1 << 20);
 }
@@ -164,7 +164,7 @@ static void test_thread__runs_each_index_once(void **state)
 static void test_thread__cancel_stops(void **state)
 {
     (void)state;
-    struct job job = { .cancel_at = 10 };
+    struct job job = {.cancel_at = 10};
     assert_false(parallel_for(1, COUNT, body, &job, &job.cancel));
     assert_int_equal(job.runs[10], 1);
     assert_int_equal(job.runs[11], 0);
@@ -176,11 +176,11 @@ static void test_progress__line_tells_what_is_left(void **state)
 {
     (void)state;
     char text[200];
-    struct progress_report r = { "march", 0.25, 2.4e7, "photons" };
+    struct progress_report r = {"march", 0.25, 2.4e7, "photons"};
     progress_line(&r, 20, text, sizeof text);
     assert_string_equal(text, "march       25 %  0:20, 1:00 left, "
                               "1.2 M photons/s");
-    r = (struct progress_report){ "gather", 0, 0, NULL };
+    r = (struct progress_report){"gather", 0, 0, NULL};
     progress_line(&r, 4000, text, sizeof text);
     assert_string_equal(text, "gather       0 %  1:06:40, ? left");
 }
@@ -189,7 +189,7 @@ static void test_progress__json_is_one_object_a_line(void **state)
 {
     (void)state;
     char text[200];
-    struct progress_report r = { "march", 0.5, 100, "rays" };
+    struct progress_report r = {"march", 0.5, 100, "rays"};
     progress_json(&r, 2, text, sizeof text);
     assert_string_equal(text, "{\"stage\":\"march\",\"fraction\":0.500000,"
                               "\"elapsed_s\":2.000,\"left_s\":2.000,"
@@ -208,8 +208,8 @@ static void test_progress__shows_few_reports(void **state)
     assert_int_equal(p.mode, PROGRESS_OFF);
     progress_init(&p, PROGRESS_JSON, ends[1]);
     for (int i = 0; i <= 1000; i++) {
-        struct progress_report r = { i < 500 ? "emit" : "march",
-                                     i / 1000.0, i, "photons" };
+        struct progress_report r = {i < 500 ? "emit" : "march", i / 1000.0, i,
+                                    "photons"};
         progress_update(&p, &r);
     }
     progress_clear(&p);

@@ -30,17 +30,17 @@
 /* ---- cases ------------------------------------------------------------- */
 
 struct section {
-    char *head;             /* "file x.inc", "out", "diag", "set a 1"      */
+    char *head; /* "file x.inc", "out", "diag", "set a 1"      */
     char *body;
     struct section *next;
 };
 
 struct test_case {
     char *name;
-    struct section *section;    /* the first one is the scene              */
+    struct section *section; /* the first one is the scene              */
 };
 
-static char *standard;          /* scenes/include                          */
+static char *standard; /* scenes/include                          */
 static struct test_case cases[2000];
 static size_t case_count;
 
@@ -81,8 +81,8 @@ static void cut_cases(const char *file, char *text)
             if (begins) {
                 struct test_case *made = &cases[case_count++];
                 assert_true(case_count < sizeof cases / sizeof *cases);
-                assert_true(asprintf(&made->name, "%s: %s", file, line + 3)
-                            > 0);
+                assert_true(asprintf(&made->name, "%s: %s", file, line + 3) >
+                            0);
                 tail = &made->section;
             }
             section = add_section(tail, begins ? strdup("scene") : line + 3);
@@ -106,8 +106,8 @@ static void find_cases(const char *folder)
     DIR *dir = opendir(folder);
     for (struct dirent *entry; dir && (entry = readdir(dir));) {
         size_t length = strlen(entry->d_name);
-        if (length > 4 && strcmp(entry->d_name + length - 4, ".txt") == 0
-            && count < 200) {
+        if (length > 4 && strcmp(entry->d_name + length - 4, ".txt") == 0 &&
+            count < 200) {
             files[count++] = strdup(entry->d_name);
         }
     }
@@ -229,10 +229,12 @@ static void run_case(void **state)
     FILE *list = open_memstream(&wrong, &wrong_length);
     const char *const library[] = {"library", standard};
     struct parse_declare declare = {0};
-    struct parse_input in = {
-        .path = "scene.pov", .library = library, .libraries = 1,
-        .ambient = PARSE_AMBIENT_INIT, .message = collect, .user = out
-    };
+    struct parse_input in = {.path = "scene.pov",
+                             .library = library,
+                             .libraries = 1,
+                             .ambient = PARSE_AMBIENT_INIT,
+                             .message = collect,
+                             .user = out};
     struct parse_result result;
     struct diag diag;
     prepare(test, &in, &declare);

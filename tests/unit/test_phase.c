@@ -24,22 +24,31 @@ static double truth(int kind, double g, double minus)
 {
     double c = 1 - minus, x = 1 - minus / 2;
     switch (kind) {
-    case 2: return (1 + 9 * pow(x, 8)) / (8 * M_PI);
-    case 3: return (1 + 50 * pow(x, 32)) / (4 * M_PI * (1 + 50 / 33.0));
-    case 4: return 3 / (16 * M_PI) * (1 + c * c);
-    case 5: return (1 - g * g) / (4 * M_PI)
-                 * pow((1 - g) * (1 - g) + 2 * g * minus, -1.5);
-    default: return 1 / (4 * M_PI);
+    case 2:
+        return (1 + 9 * pow(x, 8)) / (8 * M_PI);
+    case 3:
+        return (1 + 50 * pow(x, 32)) / (4 * M_PI * (1 + 50 / 33.0));
+    case 4:
+        return 3 / (16 * M_PI) * (1 + c * c);
+    case 5:
+        return (1 - g * g) / (4 * M_PI) *
+               pow((1 - g) * (1 - g) + 2 * g * minus, -1.5);
+    default:
+        return 1 / (4 * M_PI);
     }
 }
 
 static double mean_cosine(int kind, double g)
 {
     switch (kind) {
-    case 2: return 0.5 * (2 * 9 / 10.0 - 1);
-    case 3: return 50 / 83.0 * (2 * 33 / 34.0 - 1);
-    case 5: return g;
-    default: return 0;
+    case 2:
+        return 0.5 * (2 * 9 / 10.0 - 1);
+    case 3:
+        return 50 / 83.0 * (2 * 33 / 34.0 - 1);
+    case 5:
+        return g;
+    default:
+        return 0;
     }
 }
 
@@ -48,14 +57,17 @@ static double mean_cosine(int kind, double g)
 static void check_sampler(int kind, float g, vec3 d)
 {
     double peak = 1 - fabs(g);
-    struct sampler s = { .draw = draw, .density = density, .kind = kind,
-                         .g = g, .crowding = peak < 0.05 ? 6 : 1 };
+    struct sampler s = {.draw = draw,
+                        .density = density,
+                        .kind = kind,
+                        .g = g,
+                        .crowding = peak < 0.05 ? 6 : 1};
     s.pole = d;
     struct sampler_result r = sampler_run(&s, DRAWS);
     double mean = vec3_dot(r.mean, d);
     print_message("kind %d, g %g: integral %.6f, z %.2f, claim %.1e, "
-                  "mean cosine %.6f\n", kind, g, r.integral, r.z, r.claim,
-                  mean);
+                  "mean cosine %.6f\n",
+                  kind, g, r.integral, r.z, r.claim, mean);
     assert_true(fabs(r.integral - 1) < 1e-3);
     assert_true(r.z < 4.5);
     assert_true(r.claim < 1e-5 + 1e-6 / peak);
@@ -68,7 +80,7 @@ static void test_phase__samplers(void **state)
     (void)state;
     const vec3 up = vec3_make(0, 0, 1);
     const vec3 askew = vec3_normalize(vec3_make(0.3f, -0.5f, -0.8f));
-    const float g[] = { 0, 1e-6f, 0.3f, -0.3f, 0.9f, -0.9f, 0.99f, 0.9999f };
+    const float g[] = {0, 1e-6f, 0.3f, -0.3f, 0.9f, -0.9f, 0.99f, 0.9999f};
     for (int kind = 1; kind < KINDS; kind++)
         check_sampler(kind, 0, askew);
     for (size_t i = 0; i < sizeof g / sizeof *g; i++) {
@@ -80,7 +92,7 @@ static void test_phase__samplers(void **state)
 static void test_phase__eval_is_the_formula(void **state)
 {
     (void)state;
-    const float g[] = { 0, 0.5f, -0.5f, 0.99f, -0.99f, 0.9999f, -0.9999f };
+    const float g[] = {0, 0.5f, -0.5f, 0.99f, -0.99f, 0.9999f, -0.9999f};
     for (int kind = 1; kind <= KINDS; kind++)
         for (size_t i = 0; i < sizeof g / sizeof *g; i++)
             for (double c = -1; c <= 1; c += 1 / 64.0) {
@@ -89,9 +101,10 @@ static void test_phase__eval_is_the_formula(void **state)
                 float p = phase_eval(kind, g[i], cosine);
                 assert_true(fabs(p / t - 1) < 2e-6);
             }
-    assert_true(fabs(phase_eval(5, 0.999f, 1) * 4 * M_PI
-                     * (1 - (double)0.999f) * (1 - (double)0.999f)
-                     / (1 + (double)0.999f) - 1) < 1e-6);
+    assert_true(fabs(phase_eval(5, 0.999f, 1) * 4 * M_PI *
+                         (1 - (double)0.999f) * (1 - (double)0.999f) /
+                         (1 + (double)0.999f) -
+                     1) < 1e-6);
 }
 
 /* Between two float directions, against the same in double. */
@@ -99,7 +112,7 @@ static void test_phase__between_keeps_the_peak(void **state)
 {
     (void)state;
     rng random = rng_make(14, 0, 0, 0);
-    const float g[] = { 0.5f, 0.99f, 0.9999f, -0.9999f };
+    const float g[] = {0.5f, 0.99f, 0.9999f, -0.9999f};
     for (int i = 0; i < 400000; i++) {
         float pdf, h = g[i % 4], u = rng_float(&random);
         vec3 d = warp_sphere(u, rng_float(&random));
@@ -119,7 +132,7 @@ static void test_phase__between_keeps_the_peak(void **state)
 static void test_phase__normalisation(void **state)
 {
     (void)state;
-    const float g[] = { 0, 0.5f, -0.5f, 0.99f, -0.99f, 0.9999f, -0.9999f };
+    const float g[] = {0, 0.5f, -0.5f, 0.99f, -0.99f, 0.9999f, -0.9999f};
     const int n = 200000;
     for (int kind = 1; kind <= KINDS; kind++)
         for (size_t i = 0; i < sizeof g / sizeof *g; i++) {
@@ -128,8 +141,8 @@ static void test_phase__normalisation(void **state)
                 double s = (k + 0.5) / n, near = 2 * pow(s, 12);
                 float minus = (float)(g[i] < 0 ? 2 - near : near);
                 float plus = (float)(g[i] < 0 ? near : 2 - near);
-                double p = phase_eval_ends(kind, g[i], minus, plus)
-                         * 2 * M_PI * 24 * pow(s, 11) / n;
+                double p = phase_eval_ends(kind, g[i], minus, plus) * 2 * M_PI *
+                           24 * pow(s, 11) / n;
                 sum += p;
                 mean += p * (g[i] < 0 ? near - 1 : 1 - near);
             }
@@ -143,9 +156,9 @@ static void test_phase__hg_quantiles(void **state)
 {
     (void)state;
     static const double rows[3][4] = {
-        { 0.5, -0.31250000, 0.68750000, 0.96301020 },
-        { 0.9, 0.74974490, 0.98550000, 0.99877637 },
-        { 0.99, 0.99542761, 0.99985050, 0.99998822 } };
+        {0.5, -0.31250000, 0.68750000, 0.96301020},
+        {0.9, 0.74974490, 0.98550000, 0.99877637},
+        {0.99, 0.99542761, 0.99985050, 0.99998822}};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             float g = (float)rows[i][0], plus, mirrored;
@@ -163,20 +176,20 @@ static void test_phase__hg_quantiles(void **state)
 static void test_phase__hg_sample_is_exact(void **state)
 {
     (void)state;
-    const float g[] = { 1e-3f, 0.5f, 0.99f, 0.9999f, 1 - 0x1p-24f };
+    const float g[] = {1e-3f, 0.5f, 0.99f, 0.9999f, 1 - 0x1p-24f};
     for (size_t i = 0; i < sizeof g / sizeof *g; i++)
-        for (float u = 0x1p-24f; u < 1; u = u < 0.5f ? u * 1.3f
-                                        : fmaxf(u + 0x1p-24f, 0.3f + 0.7f * u))
+        for (float u = 0x1p-24f; u < 1;
+             u = u < 0.5f ? u * 1.3f : fmaxf(u + 0x1p-24f, 0.3f + 0.7f * u))
             for (int sign = -1; sign <= 1; sign += 2) {
                 float plus, minus = phase_hg_sample(sign * g[i], u, &plus);
                 long double h = g[i], t = sign > 0 ? u : 1.0f - u;
                 long double d = 1 - h + 2 * h * t, q = (1 - h * h) / d;
                 long double near = (q - (1 - h)) * (q + (1 - h)) / (2 * h);
                 long double far = (1 + h - q) * (1 + h + q) / (2 * h);
-                assert_true(fabsl((sign > 0 ? minus : plus) - near)
-                            <= 1e-6L * near);
-                assert_true(fabsl((sign > 0 ? plus : minus) - far)
-                            <= 1e-6L * far);
+                assert_true(fabsl((sign > 0 ? minus : plus) - near) <=
+                            1e-6L * near);
+                assert_true(fabsl((sign > 0 ? plus : minus) - far) <=
+                            1e-6L * far);
             }
 }
 
@@ -184,8 +197,8 @@ static void test_phase__hg_sample_is_exact(void **state)
 static void test_phase__ends(void **state)
 {
     (void)state;
-    const float ends[] = { 0, 0x1p-24f, 0.5f, 1 - 0x1p-24f };
-    const float g[] = { 0, 0.9999f, -0.9999f, 1 - 0x1p-24f, 0x1p-24f - 1 };
+    const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+    const float g[] = {0, 0.9999f, -0.9999f, 1 - 0x1p-24f, 0x1p-24f - 1};
     for (int kind = 1; kind <= KINDS; kind++)
         for (int i = 0; i < 5 * 16; i++) {
             float pdf;

@@ -56,8 +56,10 @@ static double shell_truth(double a, double lo, double hi)
 static void photons__truth_matches_table(void **state)
 {
     (void)state;
-    const double rows[][3] = {{0.5, 1.0, 0.05869514}, {0.9, 0.5, 0.4828327},
-                              {0.9, 5.0, 0.002915125}, {0.99, 2.0, 0.08497689}};
+    const double rows[][3] = {{0.5, 1.0, 0.05869514},
+                              {0.9, 0.5, 0.4828327},
+                              {0.9, 5.0, 0.002915125},
+                              {0.99, 2.0, 0.08497689}};
     for (int i = 0; i < 4; i++)
         assert_true(fabs(fluence(rows[i][0], rows[i][1]) / rows[i][2] - 1.0) <
                     2e-4);
@@ -66,8 +68,8 @@ static void photons__truth_matches_table(void **state)
 /* ---- photons ----------------------------------------------------------- */
 
 enum { SHELLS = 4, BATCHES = 32 };
-static const double edges[SHELLS][2] = {{0.45, 0.55}, {0.95, 1.05},
-                                        {1.9, 2.1}, {4.8, 5.2}};
+static const double edges[SHELLS][2] = {
+    {0.45, 0.55}, {0.95, 1.05}, {1.9, 2.1}, {4.8, 5.2}};
 
 /* Length of o + t d, t in [0, t1], inside the ball of radius r. */
 static double length_in_ball(vec3 o, vec3 d, double t1, double r)
@@ -80,8 +82,7 @@ static double length_in_ball(vec3 o, vec3 d, double t1, double r)
     return fmax(hi - lo, 0.0);
 }
 
-static void follow(const flat_scene *s, uint64_t photon,
-                   double tally[SHELLS])
+static void follow(const flat_scene *s, uint64_t photon, double tally[SHELLS])
 {
     const container_set nowhere = {0, 0, {0}};
     rng random = rng_make(1, 0, 0, photon);
@@ -104,8 +105,8 @@ static void follow(const flat_scene *s, uint64_t photon,
             return;
         const flat_medium *m = &s->media[medium];
         float pdf, v = rng_float(&p.random);
-        vec3 next = phase_sample(m->phase, m->g, p.d, v,
-                                 rng_float(&p.random), &pdf);
+        vec3 next = phase_sample(m->phase, m->g, p.d, v, rng_float(&p.random),
+                                 &pdf);
         path_turn(&p, vec3_mad(p.o, t, p.d), next, pdf);
     } while (event == PATH_SCATTERED);
 }

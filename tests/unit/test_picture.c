@@ -28,20 +28,23 @@ static int leave_folder(void **state)
 }
 
 /* Two pixels by one: half-covered white, and a clear one. */
-static float radiance[6] = { 0.5f, 0.5f, 0.5f, 0, 0, 0 };
-static float opacity[6] = { 0.5f, 0.5f, 0.5f, 0, 0, 0 };
-static float depth[2] = { 3, INFINITY };
+static float radiance[6] = {0.5f, 0.5f, 0.5f, 0, 0, 0};
+static float opacity[6] = {0.5f, 0.5f, 0.5f, 0, 0, 0};
+static float depth[2] = {3, INFINITY};
 static const struct brume_frame frame = {
-    .width = 2, .height = 1, .radiance = radiance, .opacity = opacity,
+    .width = 2,
+    .height = 1,
+    .radiance = radiance,
+    .opacity = opacity,
     .depth = depth,
 };
 
 static void write_picture(enum options_format format, int bits, bool alpha,
                           const char *path, FILE *out)
 {
-    struct exr_text text = { "scene", "s.pov" };
-    struct picture picture = { &frame, format, bits, alpha, &text, 1 };
-    struct brume_error err = { 0 };
+    struct exr_text text = {"scene", "s.pov"};
+    struct picture picture = {&frame, format, bits, alpha, &text, 1};
+    struct brume_error err = {0};
     assert_true(picture_write(&picture, path, out, &err));
 }
 
@@ -56,7 +59,7 @@ static void assert_plane(const struct exr_picture *exr, const char *name,
 static void test_picture__exr(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     write_picture(OPTIONS_FORMAT_EXR, 8, false, "a.exr", NULL);
     struct exr_picture *exr = exr_load("a.exr", &err);
     assert_non_null(exr);
@@ -71,7 +74,7 @@ static void test_picture__exr(void **state)
 static void test_picture__exr_alpha(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     opacity[0] = 0.25f;
     write_picture(OPTIONS_FORMAT_EXR, 8, true, "b.exr", NULL);
     opacity[0] = 0.5f;
@@ -88,7 +91,7 @@ static void test_picture__exr_alpha(void **state)
 static void assert_png(const char *path, int channels, int bits,
                        const uint16_t *sample)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct png_picture *png = png_load(path, &err);
     assert_non_null(png);
     assert_int_equal(png->channels, channels);
@@ -103,19 +106,18 @@ static void test_picture__png(void **state)
 {
     (void)state;
     write_picture(OPTIONS_FORMAT_PNG, 8, false, "a.png", NULL);
-    assert_png("a.png", 3, 8, (uint16_t[]){ 188, 188, 188, 0, 0, 0 });
+    assert_png("a.png", 3, 8, (uint16_t[]){188, 188, 188, 0, 0, 0});
     write_picture(OPTIONS_FORMAT_PNG, 9, false, "b.png", NULL);
-    assert_png("b.png", 3, 16, (uint16_t[]){ 48192, 48192, 48192, 0, 0, 0 });
+    assert_png("b.png", 3, 16, (uint16_t[]){48192, 48192, 48192, 0, 0, 0});
     write_picture(OPTIONS_FORMAT_PNG, 5, true, "c.png", NULL);
-    assert_png("c.png", 4, 8,
-               (uint16_t[]){ 255, 255, 255, 128, 0, 0, 0, 0 });
+    assert_png("c.png", 4, 8, (uint16_t[]){255, 255, 255, 128, 0, 0, 0, 0});
 }
 
 /* What a format writes into a stream is what it writes into a file. */
 static void test_picture__stream(void **state)
 {
     (void)state;
-    static const char *const names[] = { "s.png", "s.exr", "s.ppm" };
+    static const char *const names[] = {"s.png", "s.exr", "s.ppm"};
     for (int format = 0; format < 3; format++) {
         char a[4096], b[4096];
         FILE *out = fopen("stream", "w+b");
@@ -138,9 +140,8 @@ static void test_picture__full_stream(void **state)
 {
     (void)state;
     for (int format = 0; format < 3; format++) {
-        struct picture picture = { .frame = &frame, .format = format,
-                                   .bits = 8 };
-        struct brume_error err = { 0 };
+        struct picture picture = {.frame = &frame, .format = format, .bits = 8};
+        struct brume_error err = {0};
         FILE *out = fopen("/dev/full", "wb");
         assert_non_null(out);
         assert_false(picture_write(&picture, "-", out, &err));

@@ -35,7 +35,7 @@ static void write_bytes(const void *bytes, size_t size)
 
 static struct mesh *load_text(const char *text)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     write_bytes(text, strlen(text));
     struct mesh *m = ply_load(path, &err);
     if (!m)
@@ -46,7 +46,7 @@ static struct mesh *load_text(const char *text)
 
 static void refused(const char *text, const char *word)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     write_bytes(text, strlen(text));
     assert_null(ply_load(path, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
@@ -55,21 +55,21 @@ static void refused(const char *text, const char *word)
     assert_non_null(strstr(err.text, path));
 }
 
-#define HEAD(vertices, faces)                                                 \
-    "ply\nformat ascii 1.0\ncomment made by hand\n"                           \
-    "element vertex " #vertices "\n"                                          \
-    "property float x\nproperty float y\nproperty float z\n"                  \
-    "element face " #faces "\n"                                               \
+#define HEAD(vertices, faces)                                                  \
+    "ply\nformat ascii 1.0\ncomment made by hand\n"                            \
+    "element vertex " #vertices "\n"                                           \
+    "property float x\nproperty float y\nproperty float z\n"                   \
+    "element face " #faces "\n"                                                \
     "property list uchar int vertex_indices\nend_header\n"
 
 static void test_ply__polygons_become_fans(void **state)
 {
     (void)state;
-    struct mesh *m = load_text(HEAD(5, 3)
-                               "0 0 0\n1 0 0\r\n1 1e0 0\n0 1 .5\n-1 .5 0\n"
-                               "5 0 1 2 3 4\n2 0 1\n3 4 3 2\n");
-    static const uint32_t expected[][3] = { { 0, 1, 2 }, { 0, 2, 3 },
-                                            { 0, 3, 4 }, { 4, 3, 2 } };
+    struct mesh *m = load_text(
+        HEAD(5, 3) "0 0 0\n1 0 0\r\n1 1e0 0\n0 1 .5\n-1 .5 0\n"
+                   "5 0 1 2 3 4\n2 0 1\n3 4 3 2\n");
+    static const uint32_t expected[][3] = {
+        {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {4, 3, 2}};
     assert_int_equal(m->vertices, 5);
     assert_int_equal(m->triangles, 4);
     assert_memory_equal(m->corner, expected, sizeof expected);
@@ -136,13 +136,13 @@ static void make_binary(struct bytes *b, bool big, const char *end)
     put_text(b, "ply\nformat binary_");
     put_text(b, big ? "big" : "little");
     put_text(b, "_endian 1.0\nelement vertex 4\nproperty double x\n"
-             "property short y\nproperty int8 z\nproperty uint32 skip\n"
-             "property list uint16 int16 more\nelement face 1\n"
-             "property list int ushort vertex_indices\nend_header");
+                "property short y\nproperty int8 z\nproperty uint32 skip\n"
+                "property list uint16 int16 more\nelement face 1\n"
+                "property list int ushort vertex_indices\nend_header");
     put_text(b, end);
     for (int i = 0; i < 4; i++) {
         double x = i / 3.0;
-        int16_t y = (int16_t)(-300 * i), more[2] = { 1, 2 };
+        int16_t y = (int16_t)(-300 * i), more[2] = {1, 2};
         int8_t z = (int8_t)-i;
         uint32_t skip = 0x0a0d0a0d;
         uint16_t length = 2;
@@ -163,10 +163,10 @@ static void make_binary(struct bytes *b, bool big, const char *end)
 static void test_ply__binary_of_both_endiannesses(void **state)
 {
     (void)state;
-    static const char *const ends[] = { "\n", "\r\n", " \n" };
+    static const char *const ends[] = {"\n", "\r\n", " \n"};
     for (int i = 0; i < 6; i++) {
         struct bytes b;
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         make_binary(&b, i % 2, ends[i / 2]);
         write_bytes(b.data, b.size);
         struct mesh *m = ply_load(path, &err);
@@ -187,7 +187,7 @@ static void test_ply__damaged_files_are_errors(void **state)
     struct bytes b, broken;
     make_binary(&b, false, "\n");
     for (size_t cut = 0; cut < b.size; cut++) {
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         write_bytes(b.data, cut);
         assert_null(ply_load(path, &err));
         assert_int_equal(err.code, BRUME_ERR_FILE);
@@ -198,7 +198,7 @@ static void test_ply__damaged_files_are_errors(void **state)
         random = random * 1664525 + 1013904223;
         broken.data[(random >> 8) % b.size] ^= (unsigned char)(1 << i % 8);
         write_bytes(broken.data, broken.size);
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         struct mesh *m = ply_load(path, &err);
         assert_true(m ? mesh_check(m, NULL) : err.code != BRUME_OK);
         mesh_free(m);
@@ -218,7 +218,8 @@ static void test_ply__errors_say_where(void **state)
     refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n",
             "line 4: unknown type 'half'");
     refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\n"
-            "end_header\n", "no vertices with x, y and z");
+            "end_header\n",
+            "no vertices with x, y and z");
     refused("ply\nformat ascii 1.0\nwhatever\n", "unknown word 'whatever'");
     refused(HEAD(3, 1) "0 0 0\n1 0 0\n1 one 0\n3 0 1 2\n",
             "line 13: 'one' is not a number");

@@ -18,15 +18,18 @@ static char path[] = "/tmp/brume-test-XXXXXX";
 static float rgba[HEIGHT][WIDTH][4];
 
 static const struct image_channel channels[] = {
-    { "R", &rgba[0][0][0], 4, 4 * WIDTH },
-    { "G", &rgba[0][0][1], 4, 4 * WIDTH },
-    { "B", &rgba[0][0][2], 4, 4 * WIDTH },
-    { "A", &rgba[0][0][3], 4, 4 * WIDTH },
+    {"R", &rgba[0][0][0], 4, 4 * WIDTH},
+    {"G", &rgba[0][0][1], 4, 4 * WIDTH},
+    {"B", &rgba[0][0][2], 4, 4 * WIDTH},
+    {"A", &rgba[0][0][3], 4, 4 * WIDTH},
 };
 
-static const struct image whole = { .width = WIDTH, .height = HEIGHT,
-                                    .x1 = WIDTH, .y1 = HEIGHT,
-                                    .channel = channels, .channels = 4 };
+static const struct image whole = {.width = WIDTH,
+                                   .height = HEIGHT,
+                                   .x1 = WIDTH,
+                                   .y1 = HEIGHT,
+                                   .channel = channels,
+                                   .channels = 4};
 
 static int set_up(void **state)
 {
@@ -43,7 +46,7 @@ static int set_up(void **state)
     rgba[1][0][0] = NAN;
     rgba[1][1][0] = INFINITY;
     rgba[1][2][0] = -1;
-    rgba[0][5][0] = 3;          /* light at alpha 0                        */
+    rgba[0][5][0] = 3; /* light at alpha 0                        */
     return fd < 0 ? -1 : close(fd);
 }
 
@@ -78,7 +81,7 @@ static void test_srgb__follows_the_standard(void **state)
 static struct png_picture *save_and_load(const struct image *image, int bits,
                                          bool alpha)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     if (!png_save(path, image, bits, alpha, &err))
         fail_msg("%s", err.text);
     struct png_picture *p = png_load(path, &err);
@@ -161,7 +164,7 @@ static bool load_bytes(const unsigned char *from, size_t size)
     assert_non_null(f);
     assert_int_equal(fwrite(from, 1, size, f), size);
     fclose(f);
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct png_picture *p = png_load(path, &err);
     png_free_picture(p);
     assert_true(p || err.code == BRUME_ERR_FILE);
@@ -186,26 +189,26 @@ static void test_png__broken_files_are_errors(void **state)
 static void test_png__errors_name_the_file(void **state)
 {
     (void)state;
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(png_load("/no/such.png", &err));
     assert_non_null(strstr(err.text, "/no/such.png"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(png_save("/no/such.png", &whole, 8, false, &err));
     assert_int_equal(err.code, BRUME_ERR_FILE);
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(png_save(path, &whole, 12, false, &err));
     assert_int_equal(err.code, BRUME_ERR_USAGE);
     struct image grey = whole;
     grey.channels = 1;
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(png_save(path, &grey, 8, false, &err));
     assert_int_equal(err.code, BRUME_ERR_USAGE);
     if (access("/dev/full", W_OK) != 0)
         return;
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(png_save("/dev/full", &whole, 8, false, &err));
     assert_non_null(strstr(err.text, "No space left"));
-    err = (struct brume_error){ 0 };
+    err = (struct brume_error){0};
     assert_false(ppm_save("/dev/full", &whole, 8, &err));
     assert_non_null(strstr(err.text, "No space left"));
 }

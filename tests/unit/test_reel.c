@@ -87,8 +87,8 @@ static bool on_stopped(void *user)
 }
 
 /* Runs a scene, given as a text, with these options. */
-#define RUN(scene, ...)                                                       \
-    run_words(scene, (const char *const[]){"+W2", "+H2", "--spp=1",           \
+#define RUN(scene, ...)                                                        \
+    run_words(scene, (const char *const[]){"+W2", "+H2", "--spp=1",            \
                                            __VA_ARGS__, NULL})
 
 static enum brume_code run_words(const char *scene, const char *const *word)
@@ -100,9 +100,14 @@ static enum brume_code run_words(const char *scene, const char *const *word)
     FILE *in = fmemopen((void *)(uintptr_t)scene, strlen(scene), "r");
     assert_non_null(in);
     const struct reel_events events = {
-        .report = on_report, .message = on_message, .frame = on_frame,
-        .planned = on_planned, .progress = on_progress,
-        .finished = on_finished, .stopped = on_stopped, .in = in,
+        .report = on_report,
+        .message = on_message,
+        .frame = on_frame,
+        .planned = on_planned,
+        .progress = on_progress,
+        .finished = on_finished,
+        .stopped = on_stopped,
+        .in = in,
         .out = stderr,
     };
     while (word[count])
@@ -128,8 +133,7 @@ static bool is_there(const char *path)
 
 /* ---- cases ------------------------------------------------------------- */
 
-static const char clock_scene[] =
-    "#debug concat(\"clock \", str(clock, 0, 2))";
+static const char clock_scene[] = "#debug concat(\"clock \", str(clock, 0, 2))";
 
 static void test_reel__still(void **state)
 {
@@ -171,9 +175,9 @@ static void test_reel__failing_frame(void **state)
 {
     (void)state;
     stop_after = -1;
-    assert_int_equal(RUN("#if (frame_number = 2) #error \"no\" #end", "-",
-                         "+KFF3", "+Of"),
-                     BRUME_ERR_SCENE);
+    assert_int_equal(
+        RUN("#if (frame_number = 2) #error \"no\" #end", "-", "+KFF3", "+Of"),
+        BRUME_ERR_SCENE);
     assert_true(is_there("f1.png"));
     assert_false(is_there("f2.png") || is_there("f3.png"));
     assert_non_null(strstr(told, "frame 1; f1.png; frame 2; error: "));

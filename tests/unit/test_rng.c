@@ -11,15 +11,14 @@ static void test_known_answers(void **state)
 {
     (void)state;
     static const uint32_t v[3][10] = {
-        { 0, 0, 0, 0, 0, 0,
-          0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u },
-        { ~0u, ~0u, ~0u, ~0u, ~0u, ~0u,
-          0x408f276du, 0x41c83b0eu, 0xa20bc7c6u, 0x6d5451fdu },
-        { 0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u, 0xa4093822u,
-          0x299f31d0u, 0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u },
+        {0, 0, 0, 0, 0, 0, 0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u},
+        {~0u, ~0u, ~0u, ~0u, ~0u, ~0u, 0x408f276du, 0x41c83b0eu, 0xa20bc7c6u,
+         0x6d5451fdu},
+        {0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u, 0xa4093822u,
+         0x299f31d0u, 0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u},
     };
     for (int i = 0; i < 3; i++) {
-        uint32_t c[4] = { v[i][0], v[i][1], v[i][2], v[i][3] };
+        uint32_t c[4] = {v[i][0], v[i][1], v[i][2], v[i][3]};
         rng_philox(c, v[i][4], v[i][5]);
         for (int k = 0; k < 4; k++)
             assert_int_equal(c[k], v[i][6 + k]);
@@ -33,10 +32,10 @@ static void test_streams_are_functions_of_place(void **state)
     rng b = rng_make(1, 2, 3, 5000000000ull);
     for (int i = 0; i < 9; i++)
         assert_int_equal(rng_u32(&a), rng_u32(&b));
-    const rng other[] = { rng_make(2, 2, 3, 5000000000ull),
-                          rng_make(1, 3, 3, 5000000000ull),
-                          rng_make(1, 2, 4, 5000000000ull),
-                          rng_make(1, 2, 3, 5000000000ull & 0xffffffffu) };
+    const rng other[] = {rng_make(2, 2, 3, 5000000000ull),
+                         rng_make(1, 3, 3, 5000000000ull),
+                         rng_make(1, 2, 4, 5000000000ull),
+                         rng_make(1, 2, 3, 5000000000ull & 0xffffffffu)};
     for (int i = 0; i < 4; i++) {
         rng c = other[i], d = rng_make(1, 2, 3, 5000000000ull);
         int same = 0;
@@ -56,8 +55,8 @@ static void test_key_avalanche(void **state)
         for (int bit = 0; bit < 64; bit++) {
             rng b = bit < 32 ? rng_make(7, frame ^ 1u << bit, 0, 0)
                              : rng_make(7 ^ 1ull << bit, frame, 0, 0);
-            flips += __builtin_popcount(a.key[0] ^ b.key[0])
-                   + __builtin_popcount(a.key[1] ^ b.key[1]);
+            flips += __builtin_popcount(a.key[0] ^ b.key[0]) +
+                     __builtin_popcount(a.key[1] ^ b.key[1]);
             count += 64;
         }
     }
@@ -160,7 +159,7 @@ static void test_chance(void **state)
 {
     (void)state;
     const int n = 1 << 22;
-    const float p[] = { 0.3f, 1e-3f, 2e-5f };
+    const float p[] = {0.3f, 1e-3f, 2e-5f};
     rng r = rng_make(4, 0, 0, 0);
     for (int k = 0; k < 3; k++) {
         int hits = 0;

@@ -15,14 +15,14 @@ struct probe {
 };
 
 static const struct probe solids[] = {
-    { "sphere", SHAPE_SPHERE, { 0 } },
-    { "box", SHAPE_BOX, { 0 } },
-    { "cylinder", SHAPE_CYLINDER, { 0 } },
-    { "cone", SHAPE_CONE, { 1.0f, 0.0f } },
-    { "cone upside down", SHAPE_CONE, { 0.0f, 1.0f } },
-    { "frustum", SHAPE_CONE, { 0.3f, 2.0f } },
-    { "needle", SHAPE_CONE, { 0.01f, 0.001f } },
-    { "straight cone", SHAPE_CONE, { 0.7f, 0.7f } },
+    {"sphere", SHAPE_SPHERE, {0}},
+    {"box", SHAPE_BOX, {0}},
+    {"cylinder", SHAPE_CYLINDER, {0}},
+    {"cone", SHAPE_CONE, {1.0f, 0.0f}},
+    {"cone upside down", SHAPE_CONE, {0.0f, 1.0f}},
+    {"frustum", SHAPE_CONE, {0.3f, 2.0f}},
+    {"needle", SHAPE_CONE, {0.01f, 0.001f}},
+    {"straight cone", SHAPE_CONE, {0.7f, 0.7f}},
 };
 enum { SOLIDS = sizeof solids / sizeof *solids };
 
@@ -34,7 +34,8 @@ static float uniform(rng *r, float lo, float hi)
 static float radius_at(const struct probe *s, float z)
 {
     return s->kind == SHAPE_CONE
-         ? s->params[0] + (s->params[1] - s->params[0]) * z : 1.0f;
+               ? s->params[0] + (s->params[1] - s->params[0]) * z
+               : 1.0f;
 }
 
 /* A point within `depth` < 1 of the way from the solid's axis to its side. */
@@ -131,14 +132,14 @@ static void test_shape__rays_from_afar(void **state)
 static void test_shape__axis_rays(void **state)
 {
     (void)state;
-    const float at[] = { -0.5f, 0.0f, 0.25f, 0.5f };
+    const float at[] = {-0.5f, 0.0f, 0.25f, 0.5f};
     for (int k = 0; k < SOLIDS * 3 * 16; k++) {
         const struct probe *s = &solids[k / 48];
         int axis = k / 16 % 3;
         float u = at[k % 4], v = at[k / 4 % 4];
-        vec3 p = axis == 0 ? vec3_make(0, u, 0.5f + 0.9f * v)
-               : axis == 1 ? vec3_make(u, 0, 0.5f + 0.9f * v)
-                           : vec3_make(u, v, 0.5f);
+        vec3 p = axis == 0   ? vec3_make(0, u, 0.5f + 0.9f * v)
+                 : axis == 1 ? vec3_make(u, 0, 0.5f + 0.9f * v)
+                             : vec3_make(u, v, 0.5f);
         if (implicit(s, p) > -1e-3)
             continue;
         vec3 d = vec3_make(axis == 0, axis == 1, axis == 2);
@@ -149,7 +150,7 @@ static void test_shape__axis_rays(void **state)
 static int roots_of(int kind, float p0, float p1, float p2, vec3 o, vec3 d,
                     float t[SHAPE_MAX_ROOTS])
 {
-    const float params[4] = { p0, p1, p2, 0 };
+    const float params[4] = {p0, p1, p2, 0};
     int face[SHAPE_MAX_ROOTS];
     return shape_roots(kind, params, o, d, t, face);
 }

@@ -12,7 +12,7 @@
 static void test_surface__checker_as_povray(void **state)
 {
     (void)state;
-    const float at[] = { -2.5f, -1.5f, -0.5f, 0.5f, 1.5f, 2.5f };
+    const float at[] = {-2.5f, -1.5f, -0.5f, 0.5f, 1.5f, 2.5f};
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++)
             for (int k = 0; k < 6; k++)

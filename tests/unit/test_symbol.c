@@ -35,14 +35,14 @@ static struct name *name_of(struct fixture *f, const char *word)
 
 static void declare(struct fixture *f, const char *word, double x)
 {
-    *symbol_value(symbols_declare(&f->symbols, name_of(f, word)))
-        = value_float(x);
+    *symbol_value(symbols_declare(&f->symbols, name_of(f, word))) = value_float(
+        x);
 }
 
 static void declare_local(struct fixture *f, const char *word, double x)
 {
-    *symbol_value(symbols_local(&f->symbols, name_of(f, word)))
-        = value_float(x);
+    *symbol_value(symbols_local(&f->symbols, name_of(f, word))) = value_float(
+        x);
 }
 
 static void assert_value(struct fixture *f, const char *word, double x)
@@ -143,11 +143,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_a_word_has_one_name, begin, end),
         cmocka_unit_test_setup_teardown(test_locals_hide_and_end, begin, end),
-        cmocka_unit_test_setup_teardown(test_undefine_takes_the_nearest,
-                                        begin, end),
+        cmocka_unit_test_setup_teardown(test_undefine_takes_the_nearest, begin,
+                                        end),
         cmocka_unit_test_setup_teardown(test_scopes_reuse_memory, begin, end),
         cmocka_unit_test_setup_teardown(test_suggestions, begin, end),
-        cmocka_unit_test(test_distances)
-    };
+        cmocka_unit_test(test_distances)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

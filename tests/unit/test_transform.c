@@ -18,7 +18,7 @@ static void check_image(transform t, const double p[3], const double want[3])
         assert_true(fabs(got[i] - want[i]) <= 1.5e-6);
 }
 
-#define IMAGE(t, px, py, pz, x, y, z)                                         \
+#define IMAGE(t, px, py, pz, x, y, z)                                          \
     check_image(t, (const double[3]){px, py, pz}, (const double[3]){x, y, z})
 #define VEC(x, y, z) ((const double[3]){x, y, z})
 
@@ -48,10 +48,9 @@ static void a_chain_goes_in_order(void **state)
 {
     (void)state;
     const double numbers[12] = {1, 2, 3, 4, 5, 7, 7, 8, 10, -1, -2, -3};
-    transform parts[4] = {transform_rotate(VEC(10, 20, 30)),
-                          transform_scale(VEC(1, 2, 3)),
-                          transform_translate(VEC(4, 5, 6)),
-                          transform_matrix(numbers)};
+    transform parts[4] = {
+        transform_rotate(VEC(10, 20, 30)), transform_scale(VEC(1, 2, 3)),
+        transform_translate(VEC(4, 5, 6)), transform_matrix(numbers)};
     transform t = transform_identity();
 
     for (int i = 0; i < 4; i++)

@@ -32,8 +32,8 @@ static void make_ball(struct ball *b, float size, vec3 centre)
             bool pole = i == 0 || i == RINGS;
             float polar = FM_PI * (float)i / RINGS, around = (float)j;
             around += pole ? 0.0f : 0.8f * rng_float(&r);
-            vec3 w = warp_around_z(fm_cos(polar), pole ? 0.0f
-                                   : fm_sin(polar), around / SECTORS);
+            vec3 w = warp_around_z(fm_cos(polar), pole ? 0.0f : fm_sin(polar),
+                                   around / SECTORS);
             float radius = pole ? 1.0f : 0.7f + 0.6f * rng_float(&r);
             b->corner[i][j] = vec3_mad(centre, size * radius, w);
         }
@@ -107,7 +107,7 @@ static void test_triangle__no_leaks(void **state)
 static void test_triangle__exact_edges(void **state)
 {
     (void)state;
-    vec3 p[4] = { { -1, -1, 1 }, { 1, -1, 1 }, { 1, 1, 1 }, { -1, 1, 1 } };
+    vec3 p[4] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
     for (int i = 0; i < 9 * 25; i++) {
         vec3 o = vec3_make((float)(i % 3 - 1), (float)(i / 3 % 3 - 1), 0);
         vec3 at = vec3_make(0.5f * (float)(i / 9 % 5 - 2),
@@ -151,9 +151,9 @@ static void test_triangle__distance_and_weights(void **state)
 static void test_triangle__misses(void **state)
 {
     (void)state;
-    const vec3 p[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
-    const vec3 out[4] = { { 0.51f, 0.51f, 0 }, { -0.01f, 0.5f, 0 },
-                          { 0.5f, -0.01f, 0 }, { 2, 2, 0 } };
+    const vec3 p[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const vec3 out[4] = {
+        {0.51f, 0.51f, 0}, {-0.01f, 0.5f, 0}, {0.5f, -0.01f, 0}, {2, 2, 0}};
     float t, u, v;
     for (int i = 0; i < 4; i++) {
         vec3 o = vec3_make(0.3f, 0.2f, 2.0f), d = vec3_sub(out[i], o);

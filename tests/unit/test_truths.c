@@ -122,8 +122,11 @@ static void trilinear_cell(int at)
     for (int i = 0; i < 3; i++)
         box.b[i] = 1.0;
     truth_fill(s, box, &m);
-    struct brume_camera c = {BRUME_CAMERA_PERSPECTIVE, {-1, -1, -1},
-                             {1, 1, 1}, {0, 1e-9, 0}, {1e-9, 0, 0}};
+    struct brume_camera c = {BRUME_CAMERA_PERSPECTIVE,
+                             {-1, -1, -1},
+                             {1, 1, 1},
+                             {0, 1e-9, 0},
+                             {1e-9, 0, 0}};
     assert_true(brume_set_camera(s, &c, truth_error()));
     struct estimate e = truth_render(s, 2, 2);
     double tau = -log1p(-e.opacity);
@@ -135,7 +138,7 @@ static void truths__beer_lambert_trilinear(void **state)
 {
     (void)state;
     trilinear_cell(3);
-    trilinear_cell(7);      /* across the bricks' corner */
+    trilinear_cell(7); /* across the bricks' corner */
 }
 
 /* An emitting absorber: L = B (1 - exp(-tau)) with emission B sigma_a. */
@@ -196,8 +199,7 @@ static struct brume_medium rough_medium(brume_scene *s, double peak,
         float *v = grid_brick(grid, b & 3, b >> 2 & 3, b >> 4, truth_error());
         for (int i = 0; i < 512; i++) {
             random = random * 1664525u + 1013904223u;
-            v[i] = random >> 30 ? 0.05f
-                                : (float)(random >> 8) / 16777216.0f;
+            v[i] = random >> 30 ? 0.05f : (float)(random >> 8) / 16777216.0f;
         }
     }
     struct brume_medium m = truth_medium(0.0, 0.0, g);
@@ -265,8 +267,8 @@ static void truths__furnace_isothermal(void **state)
 
 /* ---- T3, T6: slabs ------------------------------------------------------ */
 
-static struct estimate lit_slab(const struct brume_globals *globals,
-                                double tau, double albedo, double g, int spp)
+static struct estimate lit_slab(const struct brume_globals *globals, double tau,
+                                double albedo, double g, int spp)
 {
     brume_scene *s = truth_scene(globals, 1.0, 1e-6);
     struct brume_medium m = truth_medium(1.0 - albedo, albedo, g);
@@ -278,8 +280,10 @@ static struct estimate lit_slab(const struct brume_globals *globals,
 static void truths__single_scattering(void **state)
 {
     (void)state;
-    const double rows[][2] = {{0.01, 0.000787870}, {0.1, 0.007212474},
-                              {1.0, 0.034403916}, {10.0, 0.039788736}};
+    const double rows[][2] = {{0.01, 0.000787870},
+                              {0.1, 0.007212474},
+                              {1.0, 0.034403916},
+                              {10.0, 0.039788736}};
     const int spp[] = {3000, 600, 100, 60};
     for (int i = 0; i < 4; i++) {
         struct estimate e = lit_slab(&single, rows[i][0], 1.0, 0.0, spp[i]);
@@ -300,7 +304,9 @@ static void truths__slab_radiance(void **state)
 static void truths__slab_under_sky(void **state)
 {
     (void)state;
-    const struct { double albedo, g, tau, sum; } rows[] = {
+    const struct {
+        double albedo, g, tau, sum;
+    } rows[] = {
         {0.9, 0.75, 2.0, 0.097395 + 0.660958},
         {0.5, 0.0, 1.0, 0.099119 + 0.446058},
         {0.99, -0.5, 8.0, 0.782153 + 0.077247},

@@ -60,17 +60,15 @@ static void test_relations(void **state)
     static const struct {
         enum value_operator op;
         double less, same, more;
-    } want[] = {
-        {VALUE_LESS, 1, 1, 0}, {VALUE_LESS_EQUAL, 1, 1, 0},
-        {VALUE_EQUAL, 0, 1, 0}, {VALUE_NOT_EQUAL, 1, 0, 1},
-        {VALUE_GREATER_EQUAL, 0, 1, 1}, {VALUE_GREATER, 0, 0, 1}
-    };
+    } want[] = {{VALUE_LESS, 1, 1, 0},          {VALUE_LESS_EQUAL, 1, 1, 0},
+                {VALUE_EQUAL, 0, 1, 0},         {VALUE_NOT_EQUAL, 1, 0, 1},
+                {VALUE_GREATER_EQUAL, 0, 1, 1}, {VALUE_GREATER, 0, 0, 1}};
     struct value a = value_vector(3, (double[]){0, 1, 2}), out;
     struct value b = value_vector(3, (double[]){1, close, 1});
     for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
         value_combine(want[i].op, &a, &b, &out);
-        assert_terms(out, 3, (double[]){want[i].less, want[i].same,
-                                        want[i].more});
+        assert_terms(out, 3,
+                     (double[]){want[i].less, want[i].same, want[i].more});
     }
 }
 
@@ -117,7 +115,6 @@ int main(void)
         cmocka_unit_test(test_relations),
         cmocka_unit_test(test_infinity_equals_itself),
         cmocka_unit_test(test_strings),
-        cmocka_unit_test(test_names)
-    };
+        cmocka_unit_test(test_names)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static int tear_down(void **state)
 
 static struct grid *load(const char *file, const char *name)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct grid *g = vdb_load(file, name, VDB_DENSITY, &err);
     if (!g)
         fail_msg("%s", err.text);
@@ -39,7 +39,7 @@ static struct grid *load(const char *file, const char *name)
 static void refused(const char *file, const char *name, enum vdb_role role,
                     enum brume_code code, const char *word)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     assert_null(vdb_load(file, name, role, &err));
     assert_int_equal(err.code, code);
     if (!strstr(err.text, word))
@@ -49,7 +49,7 @@ static void refused(const char *file, const char *name, enum vdb_role role,
 
 static struct grid *make_grid(void)
 {
-    static const int32_t origin[3] = { -8, 16, 0 }, bricks[3] = { 2, 3, 1 };
+    static const int32_t origin[3] = {-8, 16, 0}, bricks[3] = {2, 3, 1};
     struct grid *g = grid_new(origin, bricks, 0, NULL);
     assert_non_null(g);
     snprintf(g->name, sizeof g->name, "smoke");
@@ -66,7 +66,7 @@ static struct grid *make_grid(void)
 
 static void save(const struct grid *g, int flags)
 {
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     if (!vdb_save(path, &g, 1, flags, &err))
         fail_msg("%s", err.text);
 }
@@ -124,8 +124,8 @@ static void test_vdb__bad_samples_are_counted(void **state)
 static void test_vdb__one_voxel_and_none(void **state)
 {
     (void)state;
-    static const int32_t origin[3] = { 0, 0, -80000 };
-    static const int32_t bricks[3] = { 1, 1, 1 };
+    static const int32_t origin[3] = {0, 0, -80000};
+    static const int32_t bricks[3] = {1, 1, 1};
     struct grid *g = grid_new(origin, bricks, 0, NULL);
     save(g, 0);
     struct grid *h = load(path, NULL);
@@ -147,8 +147,14 @@ static void test_vdb__one_voxel_and_none(void **state)
 static void test_vdb__takes_every_scalar_type(void **state)
 {
     (void)state;
-    static const struct { const char *name; float value; } cases[] = {
-        { "real", 1.25f }, { "count", 7 }, { "big", 0x1p40f }, { "mask", 1 },
+    static const struct {
+        const char *name;
+        float value;
+    } cases[] = {
+        {"real", 1.25f},
+        {"count", 7},
+        {"big", 0x1p40f},
+        {"mask", 1},
     };
     for (int i = 0; i < 4; i++) {
         struct grid *g = load("tests/data/kinds.vdb", cases[i].name);
@@ -188,7 +194,9 @@ static void test_vdb__tiles_of_all_levels(void **state)
 {
     (void)state;
     static const double to_world[3][4] = {
-        { 0, -3, 0.25, 10 }, { 2, 0, 0, 20 }, { 0, 0, 0.5, 30 },
+        {0, -3, 0.25, 10},
+        {2, 0, 0, 20},
+        {0, 0, 0.5, 30},
     };
     struct grid *g = load("tests/data/tiles.vdb", NULL);
     assert_string_equal(g->name, "density[0]");
@@ -222,20 +230,20 @@ static void test_vdb__grids_are_chosen_by_name(void **state)
         enum vdb_role role;
         const char *chosen;
     } cases[] = {
-        { { "smoke", "density", "x" }, VDB_DENSITY, "density" },
-        { { "heat", "smoke" }, VDB_DENSITY, "smoke" },
-        { { "cloud" }, VDB_DENSITY, "cloud" },
-        { { "cloud", "fog" }, VDB_DENSITY, NULL },
-        { { "surface", "fog" }, VDB_DENSITY, "fog" },
-        { { "heat", "temperature" }, VDB_TEMPERATURE, "temperature" },
-        { { "density", "heat" }, VDB_TEMPERATURE, "heat" },
-        { { "density" }, VDB_TEMPERATURE, NULL },
-        { { "burn", "flames" }, VDB_FLAME, "flames" },
-        { { "v" }, VDB_VELOCITY, "v" },
+        {{"smoke", "density", "x"}, VDB_DENSITY, "density"},
+        {{"heat", "smoke"}, VDB_DENSITY, "smoke"},
+        {{"cloud"}, VDB_DENSITY, "cloud"},
+        {{"cloud", "fog"}, VDB_DENSITY, NULL},
+        {{"surface", "fog"}, VDB_DENSITY, "fog"},
+        {{"heat", "temperature"}, VDB_TEMPERATURE, "temperature"},
+        {{"density", "heat"}, VDB_TEMPERATURE, "heat"},
+        {{"density"}, VDB_TEMPERATURE, NULL},
+        {{"burn", "flames"}, VDB_FLAME, "flames"},
+        {{"v"}, VDB_VELOCITY, "v"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct vdb_entry entry[4];
-        struct vdb_list list = { .entry = entry };
+        struct vdb_list list = {.entry = entry};
         memset(entry, 0, sizeof entry);
         for (; list.count < 4 && cases[i].held[list.count]; list.count++) {
             snprintf(entry[list.count].name, sizeof entry->name, "%s",
@@ -244,7 +252,7 @@ static void test_vdb__grids_are_chosen_by_name(void **state)
             if (strcmp(cases[i].held[list.count], "surface") == 0)
                 entry[list.count].kind = VDB_LEVEL_SET;
         }
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         const struct vdb_entry *e = vdb_choose(&list, cases[i].role, "x.vdb",
                                                &err);
         if (cases[i].chosen)
@@ -283,7 +291,7 @@ static bool survives(const unsigned char *bytes, size_t count,
     fclose(f);
     bool all = true;
     for (; *names; names++) {
-        struct brume_error err = { 0 };
+        struct brume_error err = {0};
         struct grid *g = vdb_load(path, *names, VDB_DENSITY, &err);
         assert_true(g || (err.code != BRUME_OK && strstr(err.text, path)));
         all = all && g;
@@ -316,8 +324,7 @@ static void flip_bits(const char *const *names, int times)
 static void test_vdb__damaged_files_are_errors(void **state)
 {
     (void)state;
-    static const char *const names[] = { "real", "count", "big", "mask",
-                                         NULL };
+    static const char *const names[] = {"real", "count", "big", "mask", NULL};
     read_whole("tests/data/kinds.vdb");
     assert_true(survives(whole, size, names));
     for (size_t cut = 0; cut < size; cut += size / 40)
@@ -325,7 +332,7 @@ static void test_vdb__damaged_files_are_errors(void **state)
     flip_bits(names, 400);
     free(whole);
     free(broken);
-    static const char *const tiles[] = { "density", "shared", NULL };
+    static const char *const tiles[] = {"density", "shared", NULL};
     read_whole("tests/data/tiles.vdb");
     assert_true(survives(whole, size, tiles));
     flip_bits(tiles, 400);
@@ -340,7 +347,7 @@ static void test_vdb__damaged_fire_is_an_error(void **state)
         print_message("no " CAMPFIRE " here\n");
         skip();
     }
-    static const char *const names[] = { "density", NULL };
+    static const char *const names[] = {"density", NULL};
     read_whole(CAMPFIRE);
     assert_true(survives(whole, size, names));
     for (int i = 0; i < 40; i++)
@@ -365,7 +372,7 @@ static void test_vdb__loads_real_fire(void **state)
     assert_string_equal(v->type, "vec3s");
     assert_int_equal(v->kind, VDB_STAGGERED);
     vdb_list_free(list);
-    struct brume_error err = { 0 };
+    struct brume_error err = {0};
     struct grid *g = vdb_load(CAMPFIRE, NULL, VDB_TEMPERATURE, &err);
     assert_non_null(g);
     assert_string_equal(g->name, "temperature");

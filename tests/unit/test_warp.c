@@ -10,10 +10,12 @@ enum { COSINE, SPHERE, CONE, DRAWS = 1 << 19 };
 
 static vec3 draw(const struct sampler *s, float u, float v, float *pdf)
 {
-    vec3 w = s->kind == COSINE ? warp_cosine_hemisphere(u, v)
-           : s->kind == SPHERE ? warp_sphere(u, v) : warp_cone(u, v, s->g);
-    *pdf = s->kind == COSINE ? warp_cosine_hemisphere_pdf(w.z)
-         : s->kind == SPHERE ? warp_sphere_pdf() : warp_cone_pdf(s->g);
+    vec3 w = s->kind == COSINE   ? warp_cosine_hemisphere(u, v)
+             : s->kind == SPHERE ? warp_sphere(u, v)
+                                 : warp_cone(u, v, s->g);
+    *pdf = s->kind == COSINE   ? warp_cosine_hemisphere_pdf(w.z)
+           : s->kind == SPHERE ? warp_sphere_pdf()
+                               : warp_cone_pdf(s->g);
     return w;
 }
 
@@ -45,17 +47,17 @@ static void check(struct sampler s, double integral_tolerance)
 static void test_warp__directions(void **state)
 {
     (void)state;
-    check((struct sampler){ .kind = COSINE, .crowding = 1 }, 1e-3);
-    check((struct sampler){ .kind = SPHERE, .crowding = 1 }, 1e-3);
-    check((struct sampler){ .kind = CONE, .g = 2, .crowding = 1 }, 1e-3);
-    check((struct sampler){ .kind = CONE, .g = 0.3f, .crowding = 1 }, 2e-3);
-    check((struct sampler){ .kind = CONE, .g = 1e-6f, .crowding = 6 }, 2e-3);
+    check((struct sampler){.kind = COSINE, .crowding = 1}, 1e-3);
+    check((struct sampler){.kind = SPHERE, .crowding = 1}, 1e-3);
+    check((struct sampler){.kind = CONE, .g = 2, .crowding = 1}, 1e-3);
+    check((struct sampler){.kind = CONE, .g = 0.3f, .crowding = 1}, 2e-3);
+    check((struct sampler){.kind = CONE, .g = 1e-6f, .crowding = 6}, 2e-3);
 }
 
 /* Counts of a uniform law on a square of 16 x 16 bins; `inside` says where
  * the law is. */
-static double planar_z(vec3 (*warp)(float, float), bool (*inside)(double,
-                       double), double lo)
+static double planar_z(vec3 (*warp)(float, float),
+                       bool (*inside)(double, double), double lo)
 {
     enum { SIDE = 16, FINE = 64 };
     static double expected[SIDE * SIDE], seen[SIDE * SIDE];
@@ -83,7 +85,10 @@ static double planar_z(vec3 (*warp)(float, float), bool (*inside)(double,
     return sampler_chi_square(expected, seen, SIDE * SIDE);
 }
 
-static bool in_disc(double x, double y) { return x * x + y * y <= 1; }
+static bool in_disc(double x, double y)
+{
+    return x * x + y * y <= 1;
+}
 static bool in_triangle(double x, double y)
 {
     return x >= 0 && y >= 0 && x + y <= 1;
@@ -130,7 +135,7 @@ static void test_warp__frames(void **state)
 static void test_warp__ends(void **state)
 {
     (void)state;
-    const float ends[] = { 0, 0x1p-24f, 0.5f, 1 - 0x1p-24f };
+    const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
     for (int i = 0; i < 16; i++) {
         float u = ends[i / 4], v = ends[i % 4];
         assert_true(warp_cosine_hemisphere(u, v).z > 0);
