@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "core/matrix.h"
+#include "core/check.h"
 #include "core/scene.h"
+#include "core/shapes.h"
 #include "lib/memory.h"
 
 brume_scene *brume_scene_new(struct brume_error *err)
@@ -27,6 +28,8 @@ void brume_scene_free(brume_scene *scene)
         mesh_free(scene->meshes[i]);
     for (size_t i = 0; i < scene->grids_count; i++)
         grid_free(scene->grids[i]);
+    for (size_t i = 0; i < scene->shapes_count; i++)
+        shape_release(&scene->shapes[i]);
 #define X(type, name) free(scene->name);
     SCENE_LISTS(X)
 #undef X
@@ -51,51 +54,6 @@ static bool list_room(void **list, size_t *capacity, size_t count, size_t size,
         return false;
     *list = grown;
     return true;
-}
-
-static bool all_finite(const double *v, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (!isfinite(v[i]))
-            return false;
-    return true;
-}
-
-static bool check_finite(const double *v, int n, const char *what,
-                         struct brume_error *err)
-{
-    return all_finite(v, n) ||
-           brume_fail(err, BRUME_ERR_SCENE, "%s is not finite", what);
-}
-
-static bool check_not_negative(const double *v, int n, const char *what,
-                               struct brume_error *err)
-{
-    if (!check_finite(v, n, what, err))
-        return false;
-    for (int i = 0; i < n; i++)
-        if (v[i] < 0.0)
-            return brume_fail(err, BRUME_ERR_SCENE,
-                              "%s is %g but may not be negative", what, v[i]);
-    return true;
-}
-
-static bool check_id(int id, size_t count, bool optional, const char *what,
-                     struct brume_error *err)
-{
-    if ((id >= 0 && (size_t)id < count) || (optional && id == -1))
-        return true;
-    return brume_fail(err, BRUME_ERR_SCENE, "there is no %s %d", what, id);
-}
-
-static bool check_transform(const double m[3][4], const char *what,
-                            struct brume_error *err)
-{
-    matrix a = matrix_from(m), inverse;
-    if (matrix_finite(&a) && matrix_invert(&a, &inverse))
-        return true;
-    return brume_fail(err, BRUME_ERR_SCENE,
-                      "the transform of %s has no inverse", what);
 }
 
 bool brume_set_camera(brume_scene *scene, const struct brume_camera *camera,
@@ -164,29 +122,16 @@ int brume_add_material(brume_scene *scene,
     return APPEND(scene, materials, *m, err);
 }
 
-static bool check_shape(const brume_scene *scene, const struct brume_shape *s,
-                        struct brume_error *err)
-{
-    double radii[2] = {s->radius, s->radius_b};
-    bool signed_radius = s->kind == BRUME_SHAPE_PLANE;
-    if (!check_finite(s->a, 3, "a shape's point", err) ||
-        !check_finite(s->b, 3, "a shape's point", err) ||
-        !check_finite(radii, 2, "a shape's radius", err) ||
-        !check_transform(s->transform, "a shape", err) ||
-        !check_id(s->material, scene->materials_count, true, "material", err) ||
-        !check_id(s->interior, scene->interiors_count, true, "interior", err))
-        return false;
-    if (s->kind == BRUME_SHAPE_MESH)
-        return check_id(s->mesh, scene->meshes_count, false, "mesh", err);
-    return signed_radius || check_not_negative(radii, 2, "a radius", err);
-}
-
 int brume_add_shape(brume_scene *scene, const struct brume_shape *shape,
                     struct brume_error *err)
 {
-    if (!check_shape(scene, shape, err))
+    struct brume_shape own = *shape;
+    if (!shape_check(scene, shape, err) || !shape_own(&own, err))
         return -1;
-    return APPEND(scene, shapes, *shape, err);
+    int id = APPEND(scene, shapes, own, err);
+    if (id < 0)
+        shape_release(&own);
+    return id;
 }
 
 int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,

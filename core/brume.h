@@ -111,6 +111,8 @@ BRUME_API int brume_add_material(brume_scene *scene,
                                  const struct brume_material *material,
                                  struct brume_error *err);
 
+/* Members of struct brume_shape that a kind reads, and the layout of `data`
+ * (numbers in POV-Ray's order where it has one). Angles and axes as there. */
 enum brume_shape_kind {
     BRUME_SHAPE_SPHERE,     /* a: centre; radius                           */
     BRUME_SHAPE_BOX,        /* a, b: corners                               */
@@ -120,29 +122,143 @@ enum brume_shape_kind {
                                plane from the origin along it; the inside is
                                the half space behind                       */
     BRUME_SHAPE_DISC,       /* a: centre, b: normal; radius, radius_b: hole */
-    BRUME_SHAPE_MESH        /* mesh                                        */
+    BRUME_SHAPE_MESH,       /* mesh; inside_vector in a, zero: no inside   */
+    BRUME_SHAPE_TORUS,      /* about y: radius major, radius_b minor       */
+    BRUME_SHAPE_QUADRIC,    /* data: the 10 numbers A to J                 */
+    BRUME_SHAPE_POLY,       /* order 2 to 35; data: its (order + 1) (order
+                               + 2) (order + 3) / 6 coefficients           */
+    BRUME_SHAPE_SUPERELLIPSOID, /* a[0]: e, a[1]: n                        */
+    BRUME_SHAPE_BLOB,       /* radius: threshold; data: BRUME_BLOB_NUMBERS a
+                               component: 0 sphere or 1 cylinder, strength,
+                               radius, centre or base xyz, end xyz, then its
+                               transform of 12                             */
+    BRUME_SHAPE_LATHE,      /* curve; data: x, y a point                   */
+    BRUME_SHAPE_PRISM,      /* curve, conic, open; radius: height 1,
+                               radius_b: height 2; data: x, z a point, closed
+                               sub-shapes one after the other              */
+    BRUME_SHAPE_SOR,        /* open; data: radius, height a point          */
+    BRUME_SHAPE_SPHERE_SWEEP,   /* curve; data: x, y, z, radius a sphere;
+                               accuracy: depth tolerance                   */
+    BRUME_SHAPE_JULIA,      /* julia_kind, julia_function, order: the most
+                               iterations; accuracy: precision; data: the
+                               parameter's 4, the slice's normal's 4 and its
+                               distance, the exponent of pwr: re, im        */
+    BRUME_SHAPE_ISOSURFACE, /* function[0], contained, a, b, radius,
+                               threshold, accuracy, max_gradient, evaluate,
+                               open, order: max_trace, 0 for all           */
+    BRUME_SHAPE_PARAMETRIC, /* function[0..2], contained, a, b, radius,
+                               accuracy, max_gradient, order: precompute
+                               depth; data: u and v at the lower corner, u
+                               and v at the upper one                      */
+    BRUME_SHAPE_POLYGON,    /* data: x, y, z a point, closed sub-shapes one
+                               after the other                             */
+    BRUME_SHAPE_BICUBIC_PATCH,  /* steps: u_steps, v_steps; accuracy:
+                               flatness; data: 16 points                   */
+    BRUME_SHAPE_HEIGHT_FIELD,   /* steps: columns, rows; data: heights of 0
+                               to 1 by rows, the first at z = 1; radius:
+                               water level; smooth                         */
+    BRUME_SHAPE_TEXT,       /* radius: thickness along z; data: for each
+                               glyph the number of its segments, then 8
+                               numbers a segment: x, y of a cubic Bezier's
+                               four points (lib/font.h makes it)           */
+    BRUME_SHAPE_UNION,      /* parts; those of a union that is not itself a
+                               part are as good as added one by one        */
+    BRUME_SHAPE_MERGE, BRUME_SHAPE_INTERSECTION,    /* parts               */
+    BRUME_SHAPE_DIFFERENCE  /* parts: the first less the others            */
 };
 
-/* A surface, and the container of its interior's media. */
+enum { BRUME_BLOB_NUMBERS = 21 };
+
+enum brume_curve { BRUME_CURVE_LINEAR, BRUME_CURVE_QUADRATIC,
+                   BRUME_CURVE_CUBIC, BRUME_CURVE_BEZIER,
+                   BRUME_CURVE_B_SPLINE };
+
+enum brume_julia_kind { BRUME_JULIA_QUATERNION, BRUME_JULIA_HYPERCOMPLEX };
+
+enum brume_julia_function {
+    BRUME_JULIA_SQR, BRUME_JULIA_CUBE, BRUME_JULIA_EXP,
+    BRUME_JULIA_RECIPROCAL, BRUME_JULIA_SIN, BRUME_JULIA_ASIN,
+    BRUME_JULIA_SINH, BRUME_JULIA_ASINH, BRUME_JULIA_COS, BRUME_JULIA_ACOS,
+    BRUME_JULIA_COSH, BRUME_JULIA_ACOSH, BRUME_JULIA_TAN, BRUME_JULIA_ATAN,
+    BRUME_JULIA_TANH, BRUME_JULIA_ATANH, BRUME_JULIA_LN, BRUME_JULIA_PWR
+};
+
+/* What an isosurface or a parametric surface is cut by. */
+enum brume_contained {
+    BRUME_CONTAINED_BOX,        /* a, b: corners                           */
+    BRUME_CONTAINED_SPHERE      /* a: centre; radius                       */
+};
+
+/* As a part's material or interior: that of what it is a part of. */
+#define BRUME_INHERIT (-2)
+
+/* A surface, and the container of its interior's media.
+ *
+ * A part is seen only as part of a composite (or not at all: for queries).
+ * Parts are shapes with smaller ids; one shape may be part of several. The
+ * inside of a composite, whose interior is the first that it or its parts
+ * name, is a single container; `hollow` and `shadow` are those of its own.
+ *
+ * clips cut away what is outside any of them, the surface and the inside,
+ * without closing the hole. `inverse` comes before them. */
 struct brume_shape {
     enum brume_shape_kind kind;
     double a[3], b[3], radius, radius_b;
     bool open;
     int mesh;               /* from brume_add_mesh                         */
-    double transform[3][4];     /* applied after the parameters            */
+    double transform[3][4];     /* applied after the parameters, to parts and
+                               clips too                                   */
     int material;           /* -1: invisible, a container only             */
     int interior;           /* -1: none. Needs `hollow` to have effect     */
     bool hollow, inverse;
     bool shadow;            /* casts shadows                               */
+    bool part;
+    const int *parts, *clips;   /* shapes                                  */
+    size_t part_count, clip_count;
+    const double *data;
+    size_t count;           /* of data                                     */
+    enum brume_curve curve;
+    bool conic, smooth;
+    int order, steps[2];
+    enum brume_julia_kind julia_kind;
+    enum brume_julia_function julia_function;
+    int function[3];        /* from brume_add_function                     */
+    enum brume_contained contained;
+    double threshold, accuracy, max_gradient;
+    bool evaluate;          /* adapt the gradient: evaluate_factors        */
+    double evaluate_factors[3];
 };
 #define BRUME_SHAPE_INIT                                                      \
     {BRUME_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0}, 1, 0, false, -1,               \
-     BRUME_IDENTITY, -1, -1, false, false, true}
+     BRUME_IDENTITY, -1, -1, false, false, true, false, NULL, NULL, 0, 0,     \
+     NULL, 0, BRUME_CURVE_LINEAR, false, false, 0, {0, 0},                    \
+     BRUME_JULIA_QUATERNION, BRUME_JULIA_SQR, {-1, -1, -1},                   \
+     BRUME_CONTAINED_BOX, 0, 0.001, 1.1, false, {0, 0, 0}}
 BRUME_API int brume_add_shape(brume_scene *scene,
                               const struct brume_shape *shape,
                               struct brume_error *err);
 BRUME_API int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,
                              struct brume_error *err);
+
+/* ---- queries of shapes ------------------------------------------------- */
+/* Of any shape, part or not, in double. What they need is made at a shape's
+ * first query and kept. */
+
+/* The surface nearest to the origin along the direction (any length): 1 with
+ * the point and the unit normal on it, 0 if there is none, -1 with err set. */
+BRUME_API int brume_trace(brume_scene *scene, int shape,
+                          const double origin[3], const double direction[3],
+                          double point[3], double normal[3],
+                          struct brume_error *err);
+/* 1 where the point is inside, 0 where it is not, -1 with err set. */
+BRUME_API int brume_inside(brume_scene *scene, int shape,
+                           const double point[3], struct brume_error *err);
+/* Corners of the box that POV-Ray's min_extent and max_extent report: bounds
+ * transformed as boxes, so not always the tightest; BRUME_ENDLESS where there
+ * are none. */
+#define BRUME_ENDLESS 1e10
+BRUME_API bool brume_extent(brume_scene *scene, int shape, double lowest[3],
+                            double highest[3], struct brume_error *err);
 
 /* ---- media ------------------------------------------------------------- */
 

@@ -40,8 +40,6 @@ static void bounds_add_shape(struct bounds *b, const brume_scene *scene,
     matrix m = matrix_from(s->transform);
     double p[3];
     switch (s->kind) {
-    case BRUME_SHAPE_PLANE:
-        return;
     case BRUME_SHAPE_SPHERE:
     case BRUME_SHAPE_DISC:
         bounds_add_ball(b, &m, s->a, s->radius);
@@ -65,6 +63,9 @@ static void bounds_add_shape(struct bounds *b, const brume_scene *scene,
             matrix_point(&m, scene->meshes[s->mesh]->position[i], p);
             bounds_add(b, p);
         }
+        return;
+    default:
+        return;
     }
 }
 
@@ -75,7 +76,8 @@ static void set_unit(struct flat *f, const brume_scene *scene)
     struct bounds b = {{INFINITY, INFINITY, INFINITY},
                        {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < scene->shapes_count; i++)
-        bounds_add_shape(&b, scene, &scene->shapes[i]);
+        if (!scene->shapes[i].part)
+            bounds_add_shape(&b, scene, &scene->shapes[i]);
     double extent = 0.0, away = 0.0;
     for (int i = 0; i < 3; i++) {
         if (!(b.hi[i] >= b.lo[i]))

@@ -286,7 +286,7 @@ bool prepare_shapes(const struct prepare *job, struct brume_error *err)
 {
     const brume_scene *s = job->scene;
     for (size_t i = 0; i < s->shapes_count; i++)
-        if (!add_shape(job, &s->shapes[i], err))
+        if (!s->shapes[i].part && !add_shape(job, &s->shapes[i], err))
             return false;
     if (!make_tree(job->flat, err))
         return false;
