@@ -1,0 +1,45 @@
+/* solid.h - builders of the further primitives: they check what they are told
+ * and lay out the data that core/physics/solid_X.h reads.
+ *
+ * Parameters have the units and the order that brume.5 gives them; what is
+ * not finite or has no shape is an error. Data lie in the arena. */
+#ifndef CORE_SOLID_H
+#define CORE_SOLID_H
+#include <stdbool.h>
+#include <stddef.h>
+#include "lib/arena.h"
+#include "lib/error.h"
+
+struct solid {
+    double *data;               /* flat, without pointers: can be moved     */
+    size_t count;
+    bool bounded;               /* else min and max mean nothing            */
+    double min[3], max[3];      /* contains the solid                       */
+};
+
+/* Space for `count` numbers; bounds are left. False: no memory. */
+bool solid_alloc(struct arena *arena, size_t count, struct solid *solid,
+                 struct brume_error *err);
+/* Whether all numbers are finite; else an error that names `what`. */
+bool solid_finite(const double *numbers, size_t count, const char *what,
+                  struct brume_error *err);
+void solid_bounds(struct solid *solid, double x0, double y0, double z0,
+                  double x1, double y1, double z1);
+
+/* major >= 0, minor > 0. */
+bool solid_torus(struct arena *arena, double major, double minor,
+                 struct solid *solid, struct brume_error *err);
+
+/* A to J, as solid_quadric.h has them. */
+bool solid_quadric(struct arena *arena, const double coefficients[10],
+                   struct solid *solid, struct brume_error *err);
+
+/* Order 2 to 35; solid_poly_terms(order) coefficients in POV-Ray's order. */
+bool solid_poly(struct arena *arena, int order, const double *coefficients,
+                struct solid *solid, struct brume_error *err);
+/* (order + 1) (order + 2) (order + 3) / 6 */
+int solid_poly_terms(int order);
+/* Where the coefficient of x^x y^y z^z is among them; x + y + z <= order. */
+int solid_poly_index(int order, int x, int y, int z);
+
+#endif

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""What POV-Ray's trace, inside and extents say of its further primitives.
+
+    tests/oracle/solids.py [KIND]...        writes tests/data/solids/KIND.txt
+
+A line `solid KIND NUMBERS...` begins a solid; the numbers are what the builder
+of tests/unit/solids.h takes. Then come `bounds` (two corners), `inside` (a
+point, 0 or 1) and `trace` (origin, direction, then point and normal, or
+`miss`). Rays and points are random, by a generator that is written down here.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+FOLDER = os.path.join(os.path.dirname(__file__), "..", "data", "solids")
+RAYS, POINTS = 40, 60
+
+
+def vector(numbers):
+    return "<" + ",".join(map(repr, numbers)) + ">"
+
+
+def vectors(numbers, size):
+    return [vector(numbers[i:i + size]) for i in range(0, len(numbers), size)]
+
+
+class Random:
+    """Numerical Recipes' generator of 64 bits: the same everywhere."""
+
+    def __init__(self, seed):
+        self.state = seed
+
+    def uniform(self, low=-1.0, high=1.0):
+        self.state = (self.state * 6364136223846793005 +
+                      1442695040888963407) % 2**64
+        return low + (high - low) * (self.state >> 11) / 2**53
+
+    def point(self, size):
+        return [round(self.uniform(-size, size), 6) for _ in range(3)]
+
+
+# ---- kinds: a text of the language from the numbers, and sets of numbers
+
+def torus(n):
+    return f"torus {{ {n[0]}, {n[1]} }}"
+
+
+def quadric(n):
+    a, b, c = vectors(n[:9], 3)
+    return f"quadric {{ {a}, {b}, {c}, {n[9]} }}"
+
+
+def poly(n):
+    return f"poly {{ {n[0]}, {vector(n[1:])} sturm }}"
+
+
+def terms(order, given):
+    """Coefficients in POV-Ray's order from {(x, y, z): value}."""
+    return [given.get((x, y, z), 0)
+            for x in range(order, -1, -1)
+            for y in range(order - x, -1, -1)
+            for z in range(order - x - y, -1, -1)]
+
+
+def quartic_torus(major, minor):
+    s, k = major * major + minor * minor, major * major - minor * minor
+    return {(4, 0, 0): 1, (0, 4, 0): 1, (0, 0, 4): 1, (2, 2, 0): 2,
+            (2, 0, 2): 2, (0, 2, 2): 2, (2, 0, 0): -2 * s, (0, 2, 0): 2 * k,
+            (0, 0, 2): -2 * s, (0, 0, 0): k * k}
+
+
+KINDS = {
+    "torus": (torus, [
+        (1, 0.25), (1, 1), (3, 2.5), (1, 0.01)], 1.4),
+    "quadric": (quadric, [
+        (1, 2, 3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, -1),
+        (1, 0, 1, 0, 0, 0, 0, -1, 0, 0),
+        (1, -1, 1, 0, 0, 0, -0.2, 0.4, 0.2, -0.02),
+        (1, -1, 1, 0, 0, 0, 0, 0, 0, -0.3),
+        (0, 0, 0, 1, 0, 0, 0, 0, -1, 0),
+        (0, 0, 0, 0, 0, 0, 1, 2, 3, -1)], 1.5),
+    "poly": (poly, [
+        (2, *terms(2, {(2, 0, 0): 1, (0, 2, 0): 1, (0, 0, 2): 2,
+                       (0, 0, 0): -1})),
+        (3, *terms(3, {(3, 0, 0): 1, (1, 2, 0): -1, (0, 0, 2): 1,
+                       (0, 1, 0): 0.5, (0, 0, 0): -0.2})),
+        (4, *terms(4, quartic_torus(1, 0.4))),
+        (5, *terms(5, {(5, 0, 0): 1, (0, 1, 0): 1, (0, 0, 3): -2,
+                       (1, 1, 1): 3, (0, 0, 0): 0.1})),
+        (6, *terms(6, {(6, 0, 0): 1, (0, 6, 0): 1, (0, 0, 6): 1,
+                       (2, 2, 2): -3, (0, 0, 0): -1}))], 1.5),
+}
+
+
+# ---- the probe
+
+MACROS = """#version 3.7;
+global_settings { assumed_gamma 1 }
+#fopen out "out.txt" write
+#macro V(A) concat(" ",str(A.x,0,12)," ",str(A.y,0,12)," ",str(A.z,0,12)) #end
+#macro T(O, D)
+  #local N = <0,0,0>;
+  #local H = trace(S, O, D, N);
+  #write(out, "trace", V(O), V(D),
+         #if (vlength(N) = 0) " miss" #else concat(V(H), V(N)) #end, "\\n")
+#end
+#macro I(P) #write(out, "inside", V(P), " ", str(inside(S, P),0,0), "\\n") #end
+"""
+
+
+def probe(kind, text, numbers, size, seed):
+    """The commands for one solid."""
+    random = Random(seed)
+    lines = [f"#declare S = {text(numbers)}",
+             f'#write(out, "solid {kind}{"".join(f" {n}" for n in numbers)}\\n")',
+             '#write(out, "bounds", V(min_extent(S)), V(max_extent(S)), "\\n")']
+    for i in range(RAYS):
+        origin = random.point(size * (3 if i % 4 else 1))
+        target = random.point(size)
+        if i % 8 == 0:              # along an axis, and through the middle
+            target = [t if j == i // 8 % 3 else o
+                      for j, (o, t) in enumerate(zip(origin, target))]
+        if i % 8 == 1:
+            target = [0, 0, 0]
+        away = [round(t - o, 6) for o, t in zip(origin, target)]
+        lines.append(f"T({vector(origin)}, {vector(away)})")
+    lines += [f"I({vector(random.point(size))})" for _ in range(POINTS)]
+    return "\n".join(lines)
+
+
+def measure(kind):
+    text, sets, size = KINDS[kind]
+    scene = MACROS + "\n".join(
+        probe(kind, text, numbers, size * scale(kind, numbers), i + 1)
+        for i, numbers in enumerate(sets)) + "\n#fclose out\n"
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scene.pov"), "w") as file:
+            file.write(scene)
+        done = subprocess.run(["povray", "scene.pov", "-D", "-F", "+W1", "+H1"],
+                              cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(done.stderr)
+        with open(os.path.join(folder, "out.txt")) as file:
+            return file.read()
+
+
+def scale(kind, numbers):
+    """How large a solid is beside the others of its kind."""
+    return sum(numbers) if kind == "torus" else 1
+
+
+def shorter(text):
+    """Without zeros at the ends of the numbers."""
+    return re.sub(r"(\.\d*?)0+\b", lambda m: m[1].rstrip("."), text)
+
+
+def main():
+    for kind in sys.argv[1:] or KINDS:
+        with open(os.path.join(FOLDER, kind + ".txt"), "w") as file:
+            file.write(f"# Made by tests/oracle/solids.py with POV-Ray 3.7.\n")
+            file.write(shorter(measure(kind)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,54 @@
+/* solids.h - the further primitives by name: what builds them from a list of
+ * numbers, and their functions. Read by the tests of core/solid.h. */
+#ifndef TESTS_SOLIDS_H
+#define TESTS_SOLIDS_H
+#include "core/physics/solid_poly.h"
+#include "core/physics/solid_quadric.h"
+#include "core/physics/solid_torus.h"
+#include "core/solid.h"
+
+struct solid_kind {
+    const char *name;
+    bool (*build)(struct arena *arena, const double *numbers, size_t count,
+                  struct solid *solid, struct brume_error *err);
+    int (*roots)(const double *data, dvec3 o, dvec3 d, double *t, int *part,
+                 int room);
+    dvec3 (*normal)(const double *data, dvec3 p, int part);
+    bool (*inside)(const double *data, dvec3 p);
+    double tolerance;       /* of POV-Ray's roots, for a size of 1          */
+};
+
+#define SOLID_BUILD(name)                                                     \
+    static bool build_##name(struct arena *arena, const double *n,            \
+                             size_t count, struct solid *solid,               \
+                             struct brume_error *err)
+
+SOLID_BUILD(torus)
+{
+    (void)count;
+    return solid_torus(arena, n[0], n[1], solid, err);
+}
+
+SOLID_BUILD(quadric)
+{
+    (void)count;
+    return solid_quadric(arena, n, solid, err);
+}
+
+SOLID_BUILD(poly)
+{
+    (void)count;
+    return solid_poly(arena, (int)n[0], n + 1, solid, err);
+}
+
+#define SOLID_KIND(name, tolerance)                                           \
+    {#name, build_##name, name##_roots, name##_normal, name##_inside,         \
+     tolerance}
+static const struct solid_kind solid_kinds[] = {
+    SOLID_KIND(torus, 1e-6),
+    SOLID_KIND(quadric, 1e-6),
+    SOLID_KIND(poly, 1e-6),
+};
+enum { SOLID_KINDS = sizeof solid_kinds / sizeof *solid_kinds };
+
+#endif

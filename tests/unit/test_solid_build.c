@@ -1,0 +1,97 @@
+/* test_solid_build.c - what the builders of core/solid.h refuse, by name. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <string.h>
+#include "tests/unit/solids.h"
+
+struct refusal {
+    const char *kind;
+    double numbers[32];
+    size_t count;
+    const char *text; /* a part of the message                    */
+};
+
+#define REFUSE(kind, text, ...)                                                \
+    {                                                                          \
+        kind, {__VA_ARGS__}, sizeof((double[]){__VA_ARGS__}) / sizeof(double), \
+            text                                                               \
+    }
+
+static const struct refusal refusals[] = {
+    REFUSE("torus", "radii -1 and 1", -1, 1),
+    REFUSE("torus", "radii 1 and 0", 1, 0),
+    REFUSE("torus", "radii nan and 1", NAN, 1),
+    REFUSE("torus", "radii 1 and inf", 1, INFINITY),
+    REFUSE("quadric", "no term of x, y or z", 0, 0, 0, 0, 0, 0, 0, 0, 0, 1),
+    REFUSE("quadric", "number 3 is nan", 1, 0, NAN, 0, 0, 0, 0, 0, 0, 1),
+    REFUSE("poly", "order 1; expected 2 to 35", 1, 1, 1, 1, 1),
+    REFUSE("poly", "order 36; expected 2 to 35", 36, 1, 1, 1, 1),
+    REFUSE("poly", "no term of x, y or z", 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4),
+};
+
+static const struct solid_kind *kind_named(const char *name)
+{
+    for (size_t k = 0; k < SOLID_KINDS; k++)
+        if (!strcmp(solid_kinds[k].name, name))
+            return &solid_kinds[k];
+    fail_msg("no kind %s", name);
+    return NULL;
+}
+
+static void test_solid_build__refusals(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        const struct refusal *r = &refusals[i];
+        struct brume_error err = {0};
+        struct solid solid;
+        struct arena arena;
+        arena_init(&arena, 0);
+        if (kind_named(r->kind)->build(&arena, r->numbers, r->count, &solid,
+                                       &err))
+            fail_msg("%s: accepted, expected '%s'", r->kind, r->text);
+        assert_int_equal(err.code, BRUME_ERR_SCENE);
+        if (!strstr(err.text, r->text))
+            fail_msg("%s: '%s', expected '%s'", r->kind, err.text, r->text);
+        arena_release(&arena);
+    }
+}
+
+static void test_solid_build__no_memory(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    struct solid solid;
+    struct arena arena;
+    arena_init(&arena, 1);
+    assert_false(solid_torus(&arena, 1, 0.5, &solid, &err));
+    assert_int_equal(err.code, BRUME_ERR_MEMORY);
+    arena_release(&arena);
+}
+
+/* POV-Ray's order: by falling power of x, then of y, then of z. */
+static void test_solid_build__poly_order(void **state)
+{
+    (void)state;
+    for (int order = 2; order <= 35; order++) {
+        int at = 0;
+        for (int x = order; x >= 0; x--)
+            for (int y = order - x; y >= 0; y--)
+                for (int z = order - x - y; z >= 0; z--)
+                    assert_int_equal(solid_poly_index(order, x, y, z), at++);
+        assert_int_equal(solid_poly_terms(order), at);
+    }
+    assert_int_equal(solid_poly_terms(35), 8436);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_solid_build__refusals),
+        cmocka_unit_test(test_solid_build__no_memory),
+        cmocka_unit_test(test_solid_build__poly_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
