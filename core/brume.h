@@ -334,6 +334,126 @@ BRUME_API int brume_add_interior(brume_scene *scene, const int *media,
 BRUME_API bool brume_set_atmosphere(brume_scene *scene, int interior,
                                     struct brume_error *err);
 
+/* ---- functions --------------------------------------------------------- */
+
+/* A function of up to BRUME_MAX_PARAMETERS numbers with 1 to BRUME_MAX_RESULTS
+ * numbers as its result, written operation by operation in postfix order: as
+ * a parser of expressions reduces its rules. Each call takes its operands from
+ * the top of a stack and leaves its results there; what is on the stack at the
+ * end are the function's results. sqrt(x*x + 2):
+ *
+ *     f = brume_function_new(scene, 1, err);
+ *     brume_function_parameter(f, 0, err);
+ *     brume_function_parameter(f, 0, err);
+ *     brume_function_op(f, BRUME_OP_MULTIPLY, err);
+ *     brume_function_constant(f, 2, err);
+ *     brume_function_op(f, BRUME_OP_ADD, err);
+ *     brume_function_op(f, BRUME_OP_SQRT, err);
+ *     id = brume_add_function(scene, f, err);
+ *
+ * A call that fails (an operand is missing, an id does not exist, a limit is
+ * reached: BRUME_ERR_LIMIT) leaves the function failed: all later calls for it
+ * fail too, so that a caller may look at the last result only. One function
+ * may be begun while another is being written. */
+struct brume_function;
+
+enum { BRUME_MAX_PARAMETERS = 56, BRUME_MAX_RESULTS = 5 };
+
+/* Arithmetic is C's in double: no operation fails, a division by zero gives
+ * infinities and NaN. Comparisons are exact, 1 or 0; any number but 0 is true.
+ * Angles are radians but for BRUME_OP_DEGREES and BRUME_OP_RADIANS. */
+enum brume_op {
+    /* one operand */
+    BRUME_OP_NEGATE, BRUME_OP_NOT, BRUME_OP_ABS,
+    BRUME_OP_ACOS, BRUME_OP_ACOSH, BRUME_OP_ASIN, BRUME_OP_ASINH,
+    BRUME_OP_ATAN, BRUME_OP_ATANH, BRUME_OP_CEIL, BRUME_OP_COS, BRUME_OP_COSH,
+    BRUME_OP_DEGREES, BRUME_OP_EXP, BRUME_OP_FLOOR,
+    BRUME_OP_INT,           /* towards zero                                */
+    BRUME_OP_LN,
+    BRUME_OP_LOG,           /* to base 10                                  */
+    BRUME_OP_RADIANS, BRUME_OP_SIN, BRUME_OP_SINH, BRUME_OP_SQR, BRUME_OP_SQRT,
+    BRUME_OP_TAN, BRUME_OP_TANH,
+    /* two, the left one first */
+    BRUME_OP_ADD, BRUME_OP_SUBTRACT, BRUME_OP_MULTIPLY, BRUME_OP_DIVIDE,
+    BRUME_OP_POW,           /* also the operator ^                         */
+    BRUME_OP_ATAN2,         /* atan2(y, x)                                 */
+    BRUME_OP_MOD,           /* remainder with the sign of the left one     */
+    BRUME_OP_DIV,           /* quotient without its fraction               */
+    BRUME_OP_MIN, BRUME_OP_MAX, BRUME_OP_EQUAL, BRUME_OP_NOT_EQUAL,
+    BRUME_OP_LESS, BRUME_OP_LESS_EQUAL, BRUME_OP_GREATER,
+    BRUME_OP_GREATER_EQUAL, BRUME_OP_AND, BRUME_OP_OR,
+    /* of a colour's five numbers, as the language's .gray and .hf */
+    BRUME_OP_GRAY, BRUME_OP_HEIGHT
+};
+
+/* What is written in parts. A body leaves one number on the stack. */
+enum brume_block {
+    BRUME_BLOCK_SELECT,     /* takes a condition; two bodies (condition < 0,
+                               >= 0) or three (< 0, = 0, > 0); leaves the
+                               value of the one that holds. The others are not
+                               evaluated                                   */
+    BRUME_BLOCK_SUM,        /* takes the first and the last value of a
+                               variable; one body, evaluated for first,
+                               first + 1, ... <= last; leaves the sum, 0 if
+                               there was none                              */
+    BRUME_BLOCK_PROD        /* the same with the product, 1 if there was none */
+};
+
+/* NULL with err set if there are too many parameters or no memory. Used up by
+ * brume_add_function; otherwise to be freed before its scene. */
+BRUME_API struct brume_function *
+brume_function_new(brume_scene *scene, int parameters, struct brume_error *err);
+BRUME_API void brume_function_free(struct brume_function *function);
+
+BRUME_API bool brume_function_constant(struct brume_function *function,
+                                       double value, struct brume_error *err);
+/* The parameter of that index, from 0. */
+BRUME_API bool brume_function_parameter(struct brume_function *function,
+                                        int index, struct brume_error *err);
+BRUME_API bool brume_function_op(struct brume_function *function,
+                                 enum brume_op op, struct brume_error *err);
+/* Calls a function of the scene: takes as many operands as it has parameters,
+ * which `arguments` must be, and leaves its results. */
+BRUME_API bool brume_function_call(struct brume_function *function, int id,
+                                   int arguments, struct brume_error *err);
+/* Takes `count` numbers, 1 to BRUME_MAX_RESULTS, and leaves the one of that
+ * index: .x, .red and the like of what a call has left. */
+BRUME_API bool brume_function_pick(struct brume_function *function, int count,
+                                   int index, struct brume_error *err);
+/* Takes a point and leaves A p + b. */
+BRUME_API bool brume_function_transform(struct brume_function *function,
+                                        const double transform[3][4],
+                                        struct brume_error *err);
+
+/* A block is opened after its operands; its bodies are parted by next, and
+ * close ends it. */
+BRUME_API bool brume_function_open(struct brume_function *function,
+                                   enum brume_block block,
+                                   struct brume_error *err);
+BRUME_API bool brume_function_next(struct brume_function *function,
+                                   struct brume_error *err);
+BRUME_API bool brume_function_close(struct brume_function *function,
+                                    struct brume_error *err);
+/* The variable of an open sum or product; depth 0 is the outermost. */
+BRUME_API bool brume_function_variable(struct brume_function *function,
+                                       int depth, struct brume_error *err);
+
+/* Ends the function and frees it, also when it fails. Evaluation has limits,
+ * so that it always ends: numbers on the stacks of nested calls, their depth
+ * and, when it is evaluated, calls and turns of loops. */
+BRUME_API int brume_add_function(brume_scene *scene,
+                                 struct brume_function *function,
+                                 struct brume_error *err);
+/* How many parameters and results it has; false if there is no such id. */
+BRUME_API bool brume_function_arity(const brume_scene *scene, int id,
+                                    int *parameters, int *results);
+/* Evaluates it in double. Fails if the count is not that of its parameters, or
+ * with BRUME_ERR_LIMIT if it takes too long. Results may be infinite or NaN. */
+BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
+                                   const double *arguments, int count,
+                                   double out[BRUME_MAX_RESULTS],
+                                   struct brume_error *err);
+
 /* ---- plan and render --------------------------------------------------- */
 
 enum brume_integrator { BRUME_INTEGRATOR_PATH };

@@ -3,6 +3,7 @@
 #ifndef CORE_SCENE_H
 #define CORE_SCENE_H
 #include "core/brume.h"
+#include "core/physics/machine.h"
 
 struct scene_interior {
     int media[BRUME_MAX_INTERIOR_MEDIA];
@@ -17,7 +18,10 @@ struct scene_interior {
     X(struct brume_medium, media)                                             \
     X(struct scene_interior, interiors)                                       \
     X(struct mesh *, meshes)                                                  \
-    X(struct grid *, grids)
+    X(struct grid *, grids)                                                   \
+    X(machine_instruction, code)        /* of all functions */                \
+    X(machine_function, functions)                                            \
+    X(double, pool)             /* numbers that instructions refer to */
 
 struct brume_scene {
     struct brume_camera camera;

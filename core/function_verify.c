@@ -1,0 +1,107 @@
+/* The verifier: what holds of all code, so that the machine need not look.
+ * Operands lie in the frame, the pool and the function; jumps lead forward,
+ * save a loop's; a function calls only those before it, so calls end. */
+#define PHYSICS_DOUBLE
+#include "core/function.h"
+
+#define UNARY(name, value) "1v--",
+#define BINARY(name, value) "1vv-",
+#define OTHER(name, shape) shape,
+static const char shapes[MACHINE_OPS][5] = {
+    MACHINE_UNARY(UNARY) MACHINE_BINARY(BINARY) MACHINE_OTHER(OTHER)};
+#undef UNARY
+#undef BINARY
+#undef OTHER
+
+struct verifier {
+    const struct brume_scene *scene;
+    const machine_instruction *code;
+    const machine_function *f;
+    int32_t id;
+};
+
+static bool in_frame(const struct verifier *v, int64_t first, int64_t count)
+{
+    return first >= 0 && first + count <= v->f->registers;
+}
+
+static bool is_value(const struct verifier *v, int32_t operand)
+{
+    return operand >= 0 ? in_frame(v, operand, 1)
+                        : (size_t)~operand < v->scene->pool_count;
+}
+
+/* A function before this one whose frame fits at that register. */
+static bool is_call(const struct verifier *v, int32_t id, int dst)
+{
+    if (id < 0 || id >= v->id || (size_t)id >= v->scene->functions_count)
+        return false;
+    const machine_function *callee = &v->scene->functions[id];
+    return in_frame(v, dst, callee->registers) && callee->calls < v->f->calls;
+}
+
+static bool operand_holds(const struct verifier *v, char shape,
+                          const machine_instruction *i, int32_t operand,
+                          int32_t at)
+{
+    switch (shape) {
+    case 'v':
+        return is_value(v, operand);
+    case 'j':
+        return operand >= 0 && operand < v->f->length - at - 1;
+    case 'l':
+        return operand > 0 && operand <= at + 1;
+    case 'p':
+        return operand >= 0 && (size_t)operand < v->scene->pool_count;
+    case 'f':
+        return is_call(v, operand, i->dst);
+    default:
+        return true;
+    }
+}
+
+/* What the shape of an operation does not tell. */
+static bool special_holds(const struct verifier *v,
+                          const machine_instruction *i)
+{
+    switch (i->op) {
+    case MACHINE_RETURN:
+        return i->b == v->f->results && (i->b == 1 || in_frame(v, i->a, i->b));
+    case MACHINE_TRANSFORM:
+        return (size_t)i->a + 12 <= v->scene->pool_count;
+    default:
+        return true;
+    }
+}
+
+static bool instruction_holds(const struct verifier *v, int32_t at)
+{
+    const machine_instruction *i = &v->code[at];
+    if (i->op >= MACHINE_OPS)
+        return false;
+    const char *shape = shapes[i->op];
+    int written = shape[0] == '-' ? 0 : shape[0] - '0';
+    return in_frame(v, i->dst, written) &&
+           operand_holds(v, shape[1], i, i->a, at) &&
+           operand_holds(v, shape[2], i, i->b, at) &&
+           operand_holds(v, shape[3], i, i->c, at) && special_holds(v, i);
+}
+
+bool function_verify(const struct brume_scene *scene,
+                     const machine_instruction *code, int32_t id,
+                     const machine_function *f, struct brume_error *err)
+{
+    struct verifier v = {scene, code, f, id};
+    if (f->calls > MACHINE_CALLS)
+        return brume_fail(err, BRUME_ERR_LIMIT,
+                          "calls of functions are nested more than %d deep",
+                          MACHINE_CALLS);
+    bool holds = f->length > 0 && f->registers >= f->parameters &&
+                 f->registers >= f->results &&
+                 f->registers <= MACHINE_REGISTERS && f->results > 0 &&
+                 f->results <= BRUME_MAX_RESULTS && f->parameters >= 0;
+    for (int32_t at = 0; holds && at < f->length; at++)
+        holds = instruction_holds(&v, at);
+    return (holds && code[f->length - 1].op == MACHINE_RETURN) ||
+           brume_fail(err, BRUME_ERR_SCENE, "a function's code is not valid");
+}

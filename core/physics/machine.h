@@ -1,0 +1,225 @@
+/* machine.h - the byte-code machine of user functions, patterns, pigments
+ * and densities: one interpreter, in double where the scene is read and in
+ * float where it is rendered (real.h).
+ *
+ * An instruction names registers of its function's frame. An operand that is
+ * a value is a register (>= 0) or, as ~i, the i-th number of the pool. A call
+ * opens the callee's frame at its first argument, and the results come back
+ * there: nothing is copied. core/function.c writes the code and verifies it
+ * (operands, jumps, depth of calls, registers), so that nothing is checked
+ * here but the fuel, which ends loops that would not end in useful time.
+ *
+ * Arithmetic is C's: a division by zero gives infinities and NaN, as in
+ * POV-Ray. Comparisons are exact and give 1 or 0. */
+#ifndef CORE_PHYSICS_MACHINE_H
+#define CORE_PHYSICS_MACHINE_H
+#include "core/physics/elementary.h"
+
+enum {
+    MACHINE_REGISTERS = 256,    /* of all frames of an evaluation          */
+    MACHINE_CALLS = 32,         /* calls that may be open at a time        */
+    MACHINE_FUEL = 1 << 22      /* calls and turns of loops in all         */
+};
+
+/* NAME, value of the operand a */
+#define MACHINE_UNARY(X)                                                      \
+    X(MOVE, a)                                                                \
+    X(NEGATE, -a)                                                             \
+    X(NOT, a == REAL(0.0))                                                    \
+    X(ABS, real_abs(a))                                                       \
+    X(ACOS, real_acos(a))                                                     \
+    X(ACOSH, real_acosh(a))                                                   \
+    X(ASIN, real_asin(a))                                                     \
+    X(ASINH, real_asinh(a))                                                   \
+    X(ATAN, real_atan(a))                                                     \
+    X(ATANH, real_atanh(a))                                                   \
+    X(CEIL, real_ceil(a))                                                     \
+    X(COS, real_cos(a))                                                       \
+    X(COSH, real_cosh(a))                                                     \
+    X(DEGREES, a / REAL_DEGREE)                                               \
+    X(EXP, real_exp(a))                                                       \
+    X(FLOOR, real_floor(a))                                                   \
+    X(INT, real_trunc(a))                                                     \
+    X(LN, real_log(a))                                                        \
+    X(LOG, real_log10(a))                                                     \
+    X(RADIANS, a * REAL_DEGREE)                                               \
+    X(SIN, real_sin(a))                                                       \
+    X(SINH, real_sinh(a))                                                     \
+    X(SQR, a * a)                                                             \
+    X(SQRT, real_sqrt(a))                                                     \
+    X(TAN, real_tan(a))                                                       \
+    X(TANH, real_tanh(a))
+
+/* NAME, value of the operands a and b */
+#define MACHINE_BINARY(X)                                                     \
+    X(ADD, a + b)                                                             \
+    X(SUBTRACT, a - b)                                                        \
+    X(MULTIPLY, a * b)                                                        \
+    X(DIVIDE, a / b)                                                          \
+    X(POW, real_power(a, b))                                                  \
+    X(ATAN2, real_atan2(a, b))                                                \
+    X(MOD, real_fmod(a, b))                                                   \
+    X(DIV, real_trunc(a / b))                                                 \
+    X(MIN, real_min(a, b))                                                    \
+    X(MAX, real_max(a, b))                                                    \
+    X(EQUAL, a == b)                                                          \
+    X(NOT_EQUAL, a != b)                                                      \
+    X(LESS, a < b)                                                            \
+    X(LESS_EQUAL, a <= b)                                                     \
+    X(GREATER, a > b)                                                         \
+    X(GREATER_EQUAL, a >= b)                                                  \
+    X(AND, a != REAL(0.0) && b != REAL(0.0))                                  \
+    X(OR, a != REAL(0.0) || b != REAL(0.0))
+
+/* The rest: NAME, and what dst, a, b and c are, for the verifier: a digit is
+ * that many registers from dst on; v a value, r a register, j a distance to
+ * jump forward, l one to loop back, f a function, n a plain number, - none. */
+#define MACHINE_OTHER(X)                                                      \
+    X(RETURN, "-vn-")       /* b results: one is a, more are registers a...*/ \
+    X(CALL, "-f--")         /* frame at dst                                */ \
+    X(JUMP, "-j--")                                                           \
+    X(JUMP_NOT_NEGATIVE, "-jv-")    /* select with two alternatives        */ \
+    X(JUMP_NOT_ZERO, "-jv-")                                                  \
+    X(JUMP_GREATER, "-jvv") /* out of a loop                               */ \
+    X(LOOP, "1l--")         /* dst += 1, and back                          */ \
+    X(TRANSFORM, "3p--")    /* 12 numbers of the pool: rows of A|b         */ \
+    X(GRAY, "3---")         /* dst becomes the gray of a colour            */ \
+    X(HEIGHT, "3---")       /* ... its height, as in a height field        */
+
+enum machine_op {
+#define X(name, value) MACHINE_##name,
+    MACHINE_UNARY(X) MACHINE_BINARY(X) MACHINE_OTHER(X)
+#undef X
+    MACHINE_OPS
+};
+
+typedef struct {
+    uint16_t op, dst;
+    int32_t a, b, c;
+} machine_instruction;
+
+typedef struct {
+    int32_t code;           /* its first instruction                       */
+    int32_t length;
+    int16_t parameters, results;
+    int16_t registers;      /* that it and all it calls need               */
+    int16_t calls;          /* depth of its calls, 0 if it calls none      */
+} machine_function;
+
+/* All functions of a scene. */
+typedef struct {
+    const machine_instruction *code;
+    const machine_function *functions;
+    const real *pool;
+} machine;
+
+HD real machine_value(const machine *m, const real *r, int32_t operand)
+{
+    return operand >= 0 ? r[operand] : m->pool[~operand];
+}
+
+/* The point r[0..2] through the affine map of 12 numbers. */
+HD void machine_transform(const real *t, real *r)
+{
+    real x = r[0], y = r[1], z = r[2];
+    for (int i = 0; i < 3; i++)
+        r[i] = t[4 * i] * x + t[4 * i + 1] * y + t[4 * i + 2] * z
+             + t[4 * i + 3];
+}
+
+HD void machine_return(const machine *m, const machine_instruction *i, real *r)
+{
+    if (i->b == 1) {
+        r[0] = machine_value(m, r, i->a);
+        return;
+    }
+    for (int k = 0; k < i->b; k++)
+        r[k] = r[i->a + k];
+}
+
+/* Evaluates a function whose arguments stand in registers[0...]; its results
+ * come there. There is room for MACHINE_REGISTERS. False when it ran out of
+ * fuel: the results are then NaN. */
+HD bool machine_run(const machine *m, int32_t function, real *registers)
+{
+    const machine_instruction *back[MACHINE_CALLS];
+    int32_t base[MACHINE_CALLS];
+    int32_t depth = 0, fuel = MACHINE_FUEL;
+    const machine_instruction *i = m->code + m->functions[function].code;
+    real *r = registers;
+    for (;; i++) {
+        switch (i->op) {
+#define X(name, value)                                                        \
+        case MACHINE_##name: {                                                \
+            real a = machine_value(m, r, i->a);                               \
+            r[i->dst] = (real)(value);                                        \
+            break;                                                            \
+        }
+        MACHINE_UNARY(X)
+#undef X
+#define X(name, value)                                                        \
+        case MACHINE_##name: {                                                \
+            real a = machine_value(m, r, i->a);                               \
+            real b = machine_value(m, r, i->b);                               \
+            r[i->dst] = (real)(value);                                        \
+            break;                                                            \
+        }
+        MACHINE_BINARY(X)
+#undef X
+        case MACHINE_RETURN:
+            machine_return(m, i, r);
+            if (depth == 0)
+                return true;
+            depth--;
+            i = back[depth];
+            r = registers + base[depth];
+            break;
+        case MACHINE_CALL:
+            if (--fuel < 0)
+                goto dry;
+            back[depth] = i;
+            base[depth++] = (int32_t)(r - registers);
+            r += i->dst;
+            i = m->code + m->functions[i->a].code - 1;
+            break;
+        case MACHINE_JUMP:
+            i += i->a;
+            break;
+        case MACHINE_JUMP_NOT_NEGATIVE:
+            if (!(machine_value(m, r, i->b) < REAL(0.0)))
+                i += i->a;
+            break;
+        case MACHINE_JUMP_NOT_ZERO:
+            if (machine_value(m, r, i->b) != REAL(0.0))
+                i += i->a;
+            break;
+        case MACHINE_JUMP_GREATER:
+            if (!(machine_value(m, r, i->b) <= machine_value(m, r, i->c)))
+                i += i->a;
+            break;
+        case MACHINE_LOOP:
+            if (--fuel < 0)
+                goto dry;
+            r[i->dst] += REAL(1.0);
+            i -= i->a;
+            break;
+        case MACHINE_TRANSFORM:
+            machine_transform(m->pool + i->a, r + i->dst);
+            break;
+        case MACHINE_GRAY:
+            r[i->dst] = REAL(0.297) * r[i->dst] + REAL(0.589) * r[i->dst + 1]
+                      + REAL(0.114) * r[i->dst + 2];
+            break;
+        case MACHINE_HEIGHT:
+            r[i->dst] = REAL(0.996093)
+                      * (r[i->dst] + r[i->dst + 1] / REAL(255.0));
+            break;
+        }
+    }
+dry:
+    for (int k = 0; k < m->functions[function].results; k++)
+        registers[k] = (real)NAN;
+    return false;
+}
+
+#endif
