@@ -16,6 +16,7 @@ brume_scene *brume_scene_new(struct brume_error *err)
         return NULL;
     s->camera = (struct brume_camera)BRUME_CAMERA_INIT;
     s->globals = (struct brume_globals)BRUME_GLOBALS_INIT;
+    s->sky = (struct brume_sky)BRUME_SKY_INIT;
     s->atmosphere = -1;
     return s;
 }
@@ -30,6 +31,7 @@ void brume_scene_free(brume_scene *scene)
         grid_free(scene->grids[i]);
     for (size_t i = 0; i < scene->shapes_count; i++)
         shape_release(&scene->shapes[i]);
+    free((void *)scene->sky.radiance);
 #define X(type, name) free(scene->name);
     SCENE_LISTS(X)
 #undef X
@@ -82,16 +84,79 @@ bool brume_set_globals(brume_scene *scene, const struct brume_globals *globals,
     return true;
 }
 
-static bool check_spot(const struct brume_light *l, struct brume_error *err)
+static bool check_sky(const struct brume_sky *sky, struct brume_error *err)
+{
+    if (sky->width < 0 || sky->height < 0 || sky->width > BRUME_MAX_SKY ||
+        sky->height > BRUME_MAX_SKY || (sky->width == 0) != (sky->height == 0))
+        return brume_fail(err, BRUME_ERR_LIMIT,
+                          "a sky of %d x %d texels is not possible; at most "
+                          "%d on a side are",
+                          sky->width, sky->height, BRUME_MAX_SKY);
+    size_t n = 3 * (size_t)sky->width * (size_t)sky->height;
+    for (size_t i = 0; i < n; i++)
+        if (!(sky->radiance[i] >= 0.0f) || isinf(sky->radiance[i]))
+            return brume_fail(err, BRUME_ERR_SCENE,
+                              "the sky's radiance is %g at texel %zu",
+                              (double)sky->radiance[i], i / 3);
+    return check_not_negative(&sky->scale, 1, "the sky's scale", err) &&
+           check_transform(sky->transform, "the sky", err);
+}
+
+bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
+                   struct brume_error *err)
+{
+    float *copy = NULL;
+    size_t n = 3 * (size_t)sky->width * (size_t)sky->height;
+    if (!check_sky(sky, err))
+        return false;
+    if (n > 0) {
+        copy = memory_new(n, sizeof *copy, err);
+        if (!copy)
+            return false;
+        memcpy(copy, sky->radiance, n * sizeof *copy);
+    }
+    free((void *)scene->sky.radiance);
+    scene->sky = *sky;
+    scene->sky.radiance = copy;
+    return true;
+}
+
+static bool check_aim(const struct brume_light *l, struct brume_error *err)
 {
     double v[3] = {l->radius, l->falloff, l->tightness};
-    if (!check_finite(l->point_at, 3, "the spotlight's point_at", err) ||
-        !check_not_negative(v, 3, "a spotlight's angle or tightness", err))
+    if (l->kind == BRUME_LIGHT_POINT && !l->parallel)
+        return true;
+    if (!check_finite(l->point_at, 3, "the light's point_at", err) ||
+        !check_not_negative(v, 3, "a light's radius, falloff or tightness",
+                            err))
         return false;
     if (memcmp(l->point_at, l->location, sizeof l->location) == 0)
         return brume_fail(err, BRUME_ERR_SCENE,
-                          "the spotlight points at its own location");
+                          "the light points at its own location");
     return true;
+}
+
+static bool check_area(const struct brume_light *l, struct brume_error *err)
+{
+    if (!l->area)
+        return true;
+    if (l->area_size[0] < 1 || l->area_size[1] < 1)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "an area light of %d by %d lamps is not possible",
+                          l->area_size[0], l->area_size[1]);
+    return check_finite(l->area_axis[0], 6, "an area light's axis", err);
+}
+
+static bool check_supported(const struct brume_light *l,
+                            struct brume_error *err)
+{
+    if (l->looks_like != -1)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "looks_like is not supported: add the shape "
+                          "without a shadow");
+    return l->projected_through == -1 ||
+           brume_fail(err, BRUME_ERR_SCENE,
+                      "projected_through is not supported");
 }
 
 int brume_add_light(brume_scene *scene, const struct brume_light *light,
@@ -101,7 +166,8 @@ int brume_add_light(brume_scene *scene, const struct brume_light *light,
     if (!check_finite(light->location, 3, "the light's location", err) ||
         !check_finite(light->color, 3, "the light's colour", err) ||
         !check_not_negative(fade, 2, "the light's fade", err) ||
-        (light->kind == BRUME_LIGHT_SPOT && !check_spot(light, err)))
+        !check_aim(light, err) || !check_area(light, err) ||
+        !check_supported(light, err))
         return -1;
     return APPEND(scene, lights, *light, err);
 }

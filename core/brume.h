@@ -59,9 +59,10 @@ struct brume_globals {
     bool media_multiple;        /* else single scattering                  */
     bool surfaces_indirect;     /* else direct light, ambient as in POV-Ray;
                                    with it, ambient terms are left out     */
-    bool environment;           /* the background lights the scene         */
+    bool environment;           /* the sky or background lights the scene  */
     bool physical_units;        /* surfaces and media agree on irradiance;
-                                   point lights fall off as 1/d^2          */
+                                   all but parallel light falls off as
+                                   1/d^2                                   */
 };
 #define BRUME_GLOBALS_INIT                                                    \
     {{0, 0, 0}, {1, 1, 1}, false, false, false, false}
@@ -69,22 +70,55 @@ BRUME_API bool brume_set_globals(brume_scene *scene,
                                  const struct brume_globals *globals,
                                  struct brume_error *err);
 
-enum brume_light_kind { BRUME_LIGHT_POINT, BRUME_LIGHT_SPOT };
+/* The sky as a picture around the scene, seen in place of the background and,
+ * with globals.environment, a light. Column x of `width` lies at the azimuth
+ * 2 pi (x/width - 1/2), counted from +z of the map's space to its +x; row 0 is
+ * about +y. `radiance` is copied: 3 floats a texel, finite, >= 0. */
+struct brume_sky {
+    int width, height;          /* 0: none, the background is all          */
+    const float *radiance;
+    double scale;
+    bool interpolate;           /* between texels' centres                 */
+    double transform[3][4];     /* map space to world; no shift counts     */
+};
+#define BRUME_MAX_SKY 32768     /* texels on a side */
+#define BRUME_SKY_INIT {0, 0, NULL, 1, true, BRUME_IDENTITY}
+BRUME_API bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
+                             struct brume_error *err);
 
+enum brume_light_kind { BRUME_LIGHT_POINT, BRUME_LIGHT_SPOT,
+                        BRUME_LIGHT_CYLINDER };
+
+/* A cylinder's light is parallel too, within a tube about the axis from
+ * location to point_at; distances of parallel light count along that axis. */
 struct brume_light {
     enum brume_light_kind kind;
     double location[3], color[3];
-    double point_at[3];             /* spot                                */
-    double radius, falloff;         /* spot: half-angles                   */
-    double tightness;               /* spot: exponent of the cosine        */
+    double point_at[3];             /* all but the plain point light       */
+    double radius, falloff;         /* spot: half-angles; cylinder: lengths */
+    double tightness;               /* exponent of the spot's cosine, of the
+                                       cylinder's 1 - distance / falloff   */
     double fade_distance, fade_power;   /* factor 2/(1 + (d/D)^p); 0: none */
-    bool shadows;
+    bool shadows;                   /* false: no highlights either         */
     bool media_interaction;         /* false: media scatter none of it     */
     bool media_attenuation;         /* the atmosphere attenuates it        */
+    bool parallel;
+    /* Spread over the rectangle of two axes about location, or the ellipse in
+     * it. POV-Ray's grid of lamps tends to this: it is sampled as an area,
+     * not as a grid, so adaptive and jitter have nothing to tell. */
+    bool area;
+    double area_axis[2][3];
+    int area_size[2];               /* lamps along the axes; 1: no width   */
+    bool area_circular, area_orient;    /* orient: a disc that faces what it
+                                           lights, half of axis 0 in radius */
+    bool area_illumination;         /* else the area tells in shadows only;
+                                       physical units always have it       */
+    int looks_like, projected_through;  /* unsupported: other than -1 fails */
 };
 #define BRUME_LIGHT_INIT                                                      \
     {BRUME_LIGHT_POINT, {0, 0, 0}, {1, 1, 1}, {0, 0, 1}, 30, 45, 0, 0, 0,     \
-     true, true, false}
+     true, true, false, false, false, {{1, 0, 0}, {0, 1, 0}}, {1, 1}, false,  \
+     false, false, -1, -1}
 BRUME_API int brume_add_light(brume_scene *scene,
                               const struct brume_light *light,
                               struct brume_error *err);

@@ -28,7 +28,8 @@ static bool is_lit(const struct flat *f)
     return f->lights_count > 0 ||
            (v->media_multiple &&
             (has_emission(f) ||
-             (v->environment && !rgb_is_black(v->background))));
+             (v->environment &&
+              (f->sky_count > 0 || !rgb_is_black(v->background)))));
 }
 
 struct stages plan_stages(const struct flat *f)

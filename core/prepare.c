@@ -1,11 +1,9 @@
-/* Unit space, camera, materials and lights; and the order of all parts. */
+/* Unit space, camera and materials; and the order of all parts. */
 #include "core/prepare.h"
 #include <math.h>
 #include <string.h>
 #include "core/blackbody.h"
 #include "core/physics/inside.h"
-
-#define PI 3.14159265358979323846
 
 /* Rays end here at the latest, in scene units, as in POV-Ray. */
 #define FAR 1e7
@@ -183,52 +181,6 @@ static bool add_material(const struct prepare *job,
     return true;
 }
 
-static double light_weight(const struct brume_light *l)
-{
-    return fabs(l->color[0]) + fabs(l->color[1]) + fabs(l->color[2]);
-}
-
-static bool add_light(const struct prepare *job, const struct brume_light *in,
-                      struct brume_error *err)
-{
-    struct flat *f = job->flat;
-    flat_light *out = FLAT_EXTEND(f, lights, 1, err);
-    if (!out)
-        return false;
-    double axis[3];
-    for (int i = 0; i < 3; i++)
-        axis[i] = in->point_at[i] - in->location[i];
-    out->spot = in->kind == BRUME_LIGHT_SPOT;
-    out->position = unit_point(f, in->location);
-    out->axis = vec3_normalize(make_vec3(axis));
-    out->color = color(in->color);
-    out->cos_radius = (float)cos(in->radius * PI / 180.0);
-    out->cos_falloff = (float)cos(in->falloff * PI / 180.0);
-    out->tightness = (float)in->tightness;
-    out->fade_distance = (float)(in->fade_distance * f->unit);
-    out->fade_power = (float)in->fade_power;
-    out->shadows = in->shadows;
-    out->media_interaction = in->media_interaction;
-    out->media_attenuation = in->media_attenuation;
-    return true;
-}
-
-/* Lights are chosen in proportion to their colour; black ones never. */
-static bool add_lights(const struct prepare *job, struct brume_error *err)
-{
-    const brume_scene *s = job->scene;
-    double total = 0.0, sum = 0.0;
-    for (size_t i = 0; i < s->lights_count; i++)
-        total += light_weight(&s->lights[i]);
-    for (size_t i = 0; total > 0.0 && i < s->lights_count; i++) {
-        sum += light_weight(&s->lights[i]);
-        if (!add_light(job, &s->lights[i], err))
-            return false;
-        job->flat->lights[i].cumulative = (float)(sum / total);
-    }
-    return true;
-}
-
 /* The containers of a perspective camera's eye, found once. */
 static bool add_eye(struct flat *f, struct brume_error *err)
 {
@@ -254,7 +206,7 @@ static bool prepare_all(const struct prepare *job, struct brume_error *err)
     for (size_t i = 0; i < s->materials_count; i++)
         if (!add_material(job, &s->materials[i], err))
             return false;
-    if (!add_lights(job, err) || !prepare_shapes(job, err) ||
+    if (!prepare_lights(job, err) || !prepare_shapes(job, err) ||
         !prepare_grids(job, err) || !prepare_media(job, err) ||
         !prepare_glow(job, err))
         return false;

@@ -15,6 +15,8 @@ struct prepare {
 /* The whole of it; NULL with err set on failure. */
 struct flat *prepare_scene(const struct prepare *job, struct brume_error *err);
 
+/* prepare_lights.c: lights, and the sky as one. */
+bool prepare_lights(const struct prepare *job, struct brume_error *err);
 /* prepare_shapes.c: shapes, triangles, their bounds and the tree. */
 bool prepare_shapes(const struct prepare *job, struct brume_error *err);
 /* prepare_grids.c: bricks with aprons, fields. */

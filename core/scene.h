@@ -26,6 +26,7 @@ struct scene_interior {
 struct brume_scene {
     struct brume_camera camera;
     struct brume_globals globals;
+    struct brume_sky sky;       /* radiance is the scene's own copy        */
     int atmosphere;             /* an interior, or -1                      */
 #define X(type, name) type *name; size_t name##_count, name##_capacity;
     SCENE_LISTS(X)

@@ -4,6 +4,7 @@
 #define CORE_PHYSICS_MARCH_H
 #include "core/physics/line.h"
 #include "core/physics/shadow.h"
+#include "core/physics/sky.h"
 
 typedef struct {
     rgb radiance;           /* emission of media and the background        */
@@ -55,7 +56,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
         after = h;
     }
     rgb left = rgb_mul(pass, line_transmittance(&line));
-    out.background = rgb_mul(left, s->background);
+    out.background = rgb_mul(left, sky_radiance(s, d));
     out.radiance = rgb_add(out.radiance, out.background);
     /* Exact for thin media where no surface is on the way. */
     out.opacity = rgb_add(rgb_sub(rgb_gray(1.0f), pass),

@@ -17,6 +17,7 @@
 #include "core/physics/line.h"
 #include "core/physics/phase.h"
 #include "core/physics/shadow.h"
+#include "core/physics/sky.h"
 #include "core/physics/warp.h"
 
 enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
@@ -280,12 +281,16 @@ typedef struct {
 } path_vertex;
 
 /* Radiance toward the eye per light C at a surface or per 4 pi C (pi C in
- * physical units) in a medium. */
-HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi)
+ * physical units) in a medium. A light without shadows makes no highlights. */
+HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi,
+                     bool highlights)
 {
-    if (v->surface)
-        return surface_light(v->surface->material, v->surface->color,
-                             v->surface->opacity, v->surface->ns,
+    const hit_point *h = v->surface;
+    if (h && !highlights)
+        return surface_matte(h->material, h->color, h->opacity,
+                             vec3_dot(h->ns, wi));
+    if (h)
+        return surface_light(h->material, h->color, h->opacity, h->ns,
                              vec3_scale(v->d, -1.0f), wi);
     float p = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
     return rgb_gray(p * phase_pov_scale(v->medium->phase) *
@@ -316,14 +321,15 @@ HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
     const flat_light *light = &s->lights[l.light];
     if (v->medium && !light->media_interaction)
         return;
-    rgb value = rgb_mul(path_response(s, v, l.wi), l.color);
+    rgb value = rgb_mul(path_response(s, v, l.wi, light->shadows), l.color);
     if (rgb_is_black(value))
         return;
     if (light->shadows) {
         container_set set = p->inside;
         rgb left = shadow_transmittance(s, &set,
             s->media_multiple || light->media_attenuation != 0,
-            path_origin(v, l.wi), l.wi, l.distance, &p->random, p->count);
+            path_origin(v, l.shadow_wi), l.shadow_wi, l.shadow_distance,
+            &p->random, p->count);
         value = rgb_mul(value, left);
     }
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l.probability));
@@ -343,6 +349,36 @@ HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
     }
     *pdf = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
     return rgb_gray(*pdf);
+}
+
+/* Next-event estimation to the sky. Bounces that find it weigh by the rest. */
+HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    if (!sky_is_light(s))
+        return;
+    float chosen, pdf;
+    vec3 wi = sky_choose(s, &p->random, &chosen);
+    if (!(chosen > 0.0f) || !path_faces(v, wi))
+        return;
+    rgb value = rgb_mul(path_bounce_eval(v, wi, &pdf), sky_radiance(s, wi));
+    if (rgb_is_black(value))
+        return;
+    container_set set = p->inside;
+    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi,
+                                    s->far, &p->random, p->count);
+    value = rgb_mul(value, left);
+    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / (chosen + pdf)));
+}
+
+/* The sky at the end of a path. */
+HD void path_escape(const flat_scene *s, path_state *p)
+{
+    if (p->straight || !s->environment)
+        return;
+    rgb value = sky_radiance(s, p->d);
+    if (p->p_dir > 0.0f && sky_is_light(s))
+        value = rgb_scale(value, 1.0f / (1.0f + sky_pdf(s, p->d) / p->p_dir));
+    path_add(p, rgb_mul(p->beta, value));
 }
 
 HD bool path_medium_at(const flat_scene *s, const container_set *set,
@@ -430,6 +466,7 @@ HD bool path_scatter(const flat_scene *s, path_state *p, float t, int medium)
     if (!s->media_multiple)
         return false;
     path_glow(s, p, &v);
+    path_sky(s, p, &v);
     float pdf, u = rng_float(&p->random);
     vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u,
                           rng_float(&p->random), &pdf);
@@ -492,6 +529,7 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
             if (!s->surfaces_indirect)
                 return false;
             path_glow(s, p, &v);
+            path_sky(s, p, &v);
             return path_bounce(p, &v);
         }
     }
@@ -519,8 +557,7 @@ HD bool path_segment(const flat_scene *s, path_state *p,
         return false;
     if (h.shape >= 0)
         return path_surface(s, p, &r, &h);
-    if (!p->straight && s->environment)
-        path_add(p, rgb_mul(p->beta, s->background));
+    path_escape(s, p);
     return false;
 }
 

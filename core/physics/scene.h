@@ -121,15 +121,42 @@ typedef struct {
     int32_t first, count;   /* of interior_media                           */
 } flat_interior;
 
+enum { LIGHT_POINT, LIGHT_SPOT, LIGHT_CYLINDER };
+enum { LIGHT_NO_AREA, LIGHT_RECTANGLE, LIGHT_ELLIPSE, LIGHT_FACING_DISC };
+
 typedef struct {
-    int32_t spot;
+    int32_t kind;
+    int32_t parallel;       /* along the axis; cylinders are               */
     vec3 position, axis;
     rgb color;
-    float cos_radius, cos_falloff, tightness;
+    float inner, outer;     /* radius and falloff: cosines, or lengths     */
+    float tightness;
     float fade_distance, fade_power;
+    int32_t area;           /* LIGHT_RECTANGLE ...                         */
+    int32_t illumination;   /* the area counts in more than shadows        */
+    vec3 side[2];           /* the area's axes; of a disc, side[0] is its
+                               diameter long                               */
     int32_t shadows, media_interaction, media_attenuation;
     float cumulative;       /* probability of this and all before          */
 } flat_light;
+
+/* A picture around the scene; as a light it is chosen texel by texel. */
+typedef struct {
+    int32_t width, height;
+    int32_t smooth;         /* interpolated                                */
+    affine to_map, from_map;    /* rotations and scales of directions      */
+    float jacobian;         /* |determinant| of to_map                     */
+    int32_t lights;         /* some texel is to be chosen                  */
+} flat_sky;
+
+/* One texel of it. Its alias [Walker 1977; Vose 1991] is taken instead with
+ * probability 1 - keep. */
+typedef struct {
+    rgb radiance;
+    float keep;
+    uint32_t alias;
+    float density;          /* of choosing it, per solid angle of the map  */
+} sky_texel;
 
 /* Node of the binary BVH. A leaf has count > 0 items from `first` of
  * bvh_items; an inner node's children are `first` and `first` + 1. */
@@ -160,6 +187,8 @@ typedef struct {
     X(vec3, normals)                                                          \
     X(flat_material, materials)                                               \
     X(flat_light, lights)                                                     \
+    X(flat_sky, sky)            /* one, or none: the background is all */     \
+    X(sky_texel, sky_texels)                                                  \
     X(bvh_node, bvh)                                                          \
     X(uint32_t, bvh_items)      /* shape, or shapes_count + triangle */       \
     X(blackbody_table, blackbody)                                             \

@@ -111,14 +111,14 @@ static void test_light__cone_as_povray(void **state)
          0.31011f}};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 6; k++) {
-            flat_light l = {.spot = 1,
+            flat_light l = {.kind = LIGHT_SPOT,
                             .tightness = cones[i][2],
-                            .cos_radius = direction(cones[i][0], 0).z,
-                            .cos_falloff = direction(cones[i][1], 0).z};
+                            .inner = direction(cones[i][0], 0).z,
+                            .outer = direction(cones[i][1], 0).z};
             float cosine = 10 / sqrtf(100 + x[k] * x[k]);
             float got = light_cone(&l, cosine);
             assert_true(fabsf(got - cones[i][3 + k]) < 2e-5f);
-            l.cos_falloff = -0.99f;
+            l.outer = -0.99f;
             assert_true(light_cone(&l, -cosine) == 0.0f);
         }
 }
