@@ -1,56 +1,23 @@
 #include "parser/build.h"
 
-#include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/memory.h"
 #include "lib/mesh.h"
 #include "parser/builder.h"
+#include "parser/report.h"
 
-/* By enum build_kind. */
 static const struct statement *const statements[BUILD_KINDS] = {
-    [BUILD_CAMERA] = &build_statement_camera,
-    [BUILD_LIGHT] = &build_statement_light,
-    [BUILD_SPHERE] = &build_statement_sphere,
-    [BUILD_BOX] = &build_statement_box,
-    [BUILD_CYLINDER] = &build_statement_cylinder,
-    [BUILD_CONE] = &build_statement_cone,
-    [BUILD_PLANE] = &build_statement_plane,
-    [BUILD_DISC] = &build_statement_disc,
-    [BUILD_TRIANGLE] = &build_statement_triangle,
-    [BUILD_SMOOTH_TRIANGLE] = &build_statement_smooth_triangle,
-    [BUILD_MESH] = &build_statement_mesh,
-    [BUILD_MESH2] = &build_statement_mesh2,
-    [BUILD_UNION] = &build_statement_union,
-    [BUILD_OBJECT] = &build_statement_object,
-    [BUILD_VERTEX_VECTORS] = &build_statement_vertex_vectors,
-    [BUILD_NORMAL_VECTORS] = &build_statement_normal_vectors,
-    [BUILD_UV_VECTORS] = &build_statement_uv_vectors,
-    [BUILD_FACE_INDICES] = &build_statement_face_indices,
-    [BUILD_NORMAL_INDICES] = &build_statement_normal_indices,
-    [BUILD_UV_INDICES] = &build_statement_uv_indices,
-    [BUILD_PIGMENT] = &build_statement_pigment,
-    [BUILD_FINISH] = &build_statement_finish,
-    [BUILD_TEXTURE] = &build_statement_texture,
-    [BUILD_MATERIAL] = &build_statement_material,
-    [BUILD_INTERIOR] = &build_statement_interior,
-    [BUILD_MEDIA] = &build_statement_media,
-    [BUILD_SCATTERING] = &build_statement_scattering,
-    [BUILD_DENSITY] = &build_statement_density,
-    [BUILD_FIRE] = &build_statement_fire,
-    [BUILD_TEMPERATURE] = &build_statement_temperature,
-    [BUILD_AMOUNT] = &build_statement_amount,
-    [BUILD_TRANSFORM] = &build_statement_transform,
-    [BUILD_BACKGROUND] = &build_statement_background,
-    [BUILD_GLOBAL_SETTINGS] = &build_statement_global_settings,
-    [BUILD_TRANSPORT] = &build_statement_transport,
-    [BUILD_DEFAULT] = &build_statement_default,
+#define X(kind, name) [BUILD_##kind] = &build_statement_##name,
+    BUILD_STATEMENTS(X)
+#undef X
 };
 
 /* ---- the stack of open statements -------------------------------------- */
 
-static const struct statement *statement_of(const struct frame *frame)
+const struct statement *build_statement_of(const struct frame *frame)
 {
     return statements[frame->kind];
 }
@@ -125,191 +92,12 @@ void build_give_up(struct parser *parser, enum value_kind kind, void *node)
     parser->builder->spare[kind] = spare;
 }
 
-/* BUILD_KINDS for a word that begins nothing. */
-static enum build_kind kind_of(const char *word)
-{
-    int kind = 0;
-
-    while (kind < BUILD_KINDS && strcmp(statements[kind]->word, word))
-        kind++;
-    return (enum build_kind)kind;
-}
-
-void build_open(struct parser *parser, const char *word, struct location at)
-{
-    enum build_kind kind = kind_of(word);
-
-    assert(kind < BUILD_KINDS);
-    const struct statement *statement = statements[kind];
-    struct frame *frame = push(parser, kind, at);
-
-    if (!frame)
-        return;
-    if (statement->size) {
-        frame->node = build_node(parser, statement->makes, statement->size);
-        if (!frame->node)
-            return;
-    }
-    if (statement->open)
-        statement->open(parser, frame);
-}
-
-struct value build_close(struct parser *parser, struct location at)
-{
-    struct frame *frame = build_top(parser);
-
-    if (!frame)
-        return (struct value){.kind = VALUE_NONE};
-    const struct statement *statement = statement_of(frame);
-    if (frame->arguments < statement->needed) {
-        parser_error(parser, at, "'%s' needs its %s before this",
-                     statement->word,
-                     statement->arguments[frame->arguments].word);
-        return (struct value){.kind = VALUE_NONE};
-    }
-    if (statement->close)
-        statement->close(parser, frame, at);
-    void *node = frame->node;
-    parser->builder->frames--;
-    parser->builder->fresh = node;
-    if (parser->failed || !node)
-        return (struct value){.kind = VALUE_NONE};
-    return value_node(statement->makes, node);
-}
-
-const char *build_innermost(struct parser *parser, struct location *at)
-{
-    const struct frame *frame = build_top(parser);
-
-    if (!frame || frame->kind == BUILD_KINDS)
-        return NULL;
-    *at = frame->at;
-    return statement_of(frame)->word;
-}
-
-/* ---- what is said inside a statement ----------------------------------- */
-
-void build_misplaced(struct parser *parser, const struct frame *frame,
-                     const struct value *value, struct location at)
-{
-    parser_error(parser, at, "'%s' cannot have a %s", statement_of(frame)->word,
-                 value_name(value));
-}
-
-static void set_argument(struct parser *parser, struct frame *frame,
-                         const struct value *number, struct location at)
-{
-    const struct statement *statement = statement_of(frame);
-    const struct param *row = statement->arguments + frame->arguments;
-
-    if (!row->word) {
-        parser_error(parser, at, "'%s' takes no more numbers here",
-                     statement->word);
-        return;
-    }
-    param_set(parser, row, frame->node, at, number, 1, at);
-}
-
-void build_argument(struct parser *parser, const struct value *number,
-                    struct location at)
-{
-    struct frame *frame = build_top(parser);
-
-    if (!frame)
-        return;
-    const struct statement *statement = statement_of(frame);
-    if (statement->argument)
-        statement->argument(parser, frame, number, at);
-    else if (statement->arguments)
-        set_argument(parser, frame, number, at);
-    else
-        build_misplaced(parser, frame, number, at);
-    frame->arguments++;
-}
-
-/* A word that changes nothing in the picture is told of once. */
-static void note_once(struct parser *parser, const struct param *row,
-                      struct location at)
-{
-    struct builder *builder = parser->builder;
-
-    for (int i = 0; i < builder->notes; i++)
-        if (builder->note[i] == row->note)
-            return;
-    if (builder->notes < BUILD_NOTES)
-        builder->note[builder->notes++] = row->note;
-    parser_warn(parser, at, "'%s' has no effect: %s", row->word, row->note);
-}
-
-/* The row of a word, NULL where it can't stand; a triangle within a mesh is
- * nothing of its own. */
-static const struct param *find_param(struct parser *parser,
-                                      const struct frame *frame,
-                                      const struct name *word,
-                                      struct location at)
-{
-    const struct statement *statement = statement_of(frame);
-    const struct param *row = param_find(statement->params, word->text);
-
-    if (row && frame->node)
-        return row;
-    parser_error(parser, at, "'%s' cannot have '%s'%s", statement->word,
-                 word->text, row ? " in a mesh" : "");
-    return NULL;
-}
-
-static void note_set(struct parser *parser, struct frame *frame,
-                     const struct param *row, struct location at)
-{
-    frame->given |= row->given;
-    if (row->note)
-        note_once(parser, row, at);
-    if (statement_of(frame)->set)
-        statement_of(frame)->set(parser, frame, row, at);
-}
-
-void build_set(struct parser *parser, const struct name *word,
-               struct location at, const struct value *number, int count,
-               struct location number_at)
-{
-    struct frame *frame = build_top(parser);
-    const struct param *row = frame ? find_param(parser, frame, word, at)
-                                    : NULL;
-
-    if (row &&
-        param_set(parser, row, frame->node, at, number, count, number_at))
-        note_set(parser, frame, row, at);
-}
-
-void build_word(struct parser *parser, const struct name *word,
-                struct location at)
-{
-    build_set(parser, word, at, NULL, 0, at);
-}
-
-void build_choose(struct parser *parser, const struct name *word,
-                  const struct name *choice, struct location at)
-{
-    struct frame *frame = build_top(parser);
-    const struct param *row = frame ? find_param(parser, frame, word, at)
-                                    : NULL;
-
-    if (row && param_choose(parser, row, frame->node, choice->text, at))
-        note_set(parser, frame, row, at);
-}
-
-void build_later(struct parser *parser, const struct name *word,
-                 struct location at)
-{
-    parser_error(parser, at, "'%s' is not supported yet", word->text);
-}
-
 /* ---- maps -------------------------------------------------------------- */
 
 static void move(struct parser *parser, struct frame *frame,
                  const transform *by, const char *word, struct location at)
 {
-    const struct statement *statement = statement_of(frame);
+    const struct statement *statement = build_statement_of(frame);
 
     if (statement->move)
         statement->move(parser, frame, by);
@@ -326,52 +114,441 @@ static void warn_zero_scale(struct parser *parser, const struct value *factor,
             parser_warn(parser, at, "scale of %c by 0 is taken as 1", "xyz"[i]);
 }
 
-void build_move(struct parser *parser, const char *word,
-                const struct value *vector, struct location at)
+static bool matrix_of(struct parser *parser, const struct value *number,
+                      struct location at, transform *by)
 {
-    struct frame *frame = build_top(parser);
-    transform by;
+    transform inverse;
 
-    if (!frame)
-        return;
-    if (vector->kind != VALUE_NUMBER) {
-        parser_error(parser, at, "'%s' needs a vector, not %s", word,
-                     value_name(vector));
-        return;
-    }
+    if (number->kind != VALUE_LIST || number->list->count != 12)
+        return parser_error(parser, at, "a matrix has 12 numbers, not %d",
+                            number->kind == VALUE_LIST ? number->list->count
+                                                       : number->terms);
+    *by = transform_matrix(number->list->term);
+    return transform_inverse(by, &inverse) ||
+           parser_error(parser, at, "this matrix has no inverse");
+}
+
+static bool map_of(struct parser *parser, const char *word,
+                   const struct value *vector, struct location at,
+                   transform *by)
+{
+    if (!strcmp(word, "matrix"))
+        return matrix_of(parser, vector, at, by);
+    if (vector->kind != VALUE_NUMBER)
+        return parser_error(parser, at, "'%s' needs a vector, not %s", word,
+                            value_name(vector));
     struct value v = value_promote(*vector, 3);
     if (!strcmp(word, "translate")) {
-        by = transform_translate(v.v);
+        *by = transform_translate(v.v);
     } else if (!strcmp(word, "rotate")) {
-        by = transform_rotate(v.v);
+        *by = transform_rotate(v.v);
     } else {
         warn_zero_scale(parser, &v, at);
-        by = transform_scale(v.v);
+        *by = transform_scale(v.v);
     }
-    move(parser, frame, &by, word, at);
+    return true;
 }
 
-void build_matrix(struct parser *parser, const struct value *number, int count,
-                  struct location at)
+/* `transform` has no number: what follows it is applied. */
+static void apply_map(struct parser *parser, struct frame *frame,
+                      const char *word, const struct value *value, int count,
+                      struct location at)
 {
-    struct frame *frame = build_top(parser);
-    double v[12];
+    transform by;
+
+    if (count > 0 && map_of(parser, word, value, at, &by))
+        move(parser, frame, &by, word, at);
+}
+
+/* ---- which statement a word begins -------------------------------------- */
+
+static bool is_within(const struct statement *statement, enum build_kind kind)
+{
+    const enum build_kind *within = statement->within;
+
+    for (; within && *within != BUILD_KINDS; within++)
+        if (*within == kind)
+            return true;
+    return false;
+}
+
+static bool has_room(const struct frame *frame, enum value_kind kind)
+{
+    const struct statement *statement = build_statement_of(frame);
+
+    return (kind == VALUE_TRANSFORM && statement->move) ||
+           (kind != VALUE_NONE && statement->takes & BUILD_TAKES(kind));
+}
+
+/* The statement that a word begins in `around`, NULL: where nothing is open,
+ * or a declared value. A word of several statements means the one that belongs
+ * there. BUILD_KINDS: it begins nothing. */
+static enum build_kind kind_of(const char *word, const struct frame *around)
+{
+    enum build_kind found = BUILD_KINDS;
+
+    for (int i = 0; i < BUILD_KINDS; i++) {
+        enum build_kind kind = (enum build_kind)i;
+        if (strcmp(statements[i]->word, word))
+            continue;
+        if (around && is_within(statements[i], around->kind))
+            return kind;
+        if (!statements[i]->within || found == BUILD_KINDS)
+            found = kind;
+    }
+    return found;
+}
+
+/* A statement that could stand alone, inside of one that has no room for it:
+ * the end of that one may be missing. */
+static void misplaced_statement(struct parser *parser,
+                                const struct frame *around,
+                                const struct statement *statement,
+                                struct location at)
+{
+    char hint[128];
+    const char *word = build_statement_of(around)->word;
+
+    snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d", word,
+             report_line(parser, around->at));
+    parser_fail(parser, BRUME_ERR_SCENE, at, statement->within ? NULL : hint,
+                "'%s' has no place in '%s'", statement->word, word);
+}
+
+/* Whether a statement may begin here; reported if not. */
+static bool may_open(struct parser *parser, enum build_kind kind,
+                     const char *word, struct location at)
+{
+    struct frame *around = build_top(parser);
+    bool value = around && around->kind == BUILD_KINDS;
+
+    if (kind == BUILD_KINDS)
+        return report_unknown(
+            parser, at, word,
+            around && !value ? build_statement_of(around)->word : NULL);
+    const struct statement *statement = statements[kind];
+    if (around && !value) {
+        if (is_within(statement, around->kind) ||
+            (!statement->within && has_room(around, statement->makes)))
+            return true;
+        misplaced_statement(parser, around, statement, at);
+        return false;
+    }
+    if (statement->within)
+        return parser_error(parser, at, "'%s' belongs into '%s'", word,
+                            statements[*statement->within]->word);
+    return !value || statement->makes != VALUE_NONE ||
+           parser_error(parser, at, "'%s' cannot be declared", word);
+}
+
+static void open(struct parser *parser, enum build_kind kind,
+                 struct location at)
+{
+    const struct statement *statement = statements[kind];
+    struct frame *frame = push(parser, kind, at);
 
     if (!frame)
         return;
-    if (count != 12) {
-        parser_error(parser, at, "a matrix has 12 numbers, not %d", count);
-        return;
+    if (statement->size) {
+        frame->node = build_node(parser, statement->makes, statement->size);
+        if (!frame->node)
+            return;
     }
-    for (int i = 0; i < 12; i++)
-        v[i] = number[i].v[0];
-    transform by = transform_matrix(v), inverse;
-    if (!transform_inverse(&by, &inverse)) {
-        parser_error(parser, at, "this matrix has no inverse");
-        return;
-    }
-    move(parser, frame, &by, "matrix", at);
+    if (statement->open)
+        statement->open(parser, frame);
 }
+
+static void finish_row(struct parser *parser, struct frame *frame);
+
+/* What comes next is not for the word before it. */
+static struct frame *settled(struct parser *parser)
+{
+    struct frame *frame = build_top(parser);
+
+    if (frame && frame->row)
+        finish_row(parser, frame);
+    return parser->failed ? NULL : frame;
+}
+
+void build_open(struct parser *parser, const struct name *word,
+                struct location at)
+{
+    struct frame *around = settled(parser);
+    enum build_kind kind;
+
+    if (parser->failed)
+        return;
+    if (around && around->kind == BUILD_KINDS)
+        around = NULL;
+    kind = kind_of(word->text, around);
+    if (may_open(parser, kind, word->text, at))
+        open(parser, kind, at);
+}
+
+void build_open_default(struct parser *parser, struct location at)
+{
+    open(parser, BUILD_DEFAULT, at);
+}
+
+void build_open_entry(struct parser *parser, struct location at)
+{
+    struct frame *frame = settled(parser);
+
+    if (!frame)
+        return;
+    if (frame->kind == BUILD_KINDS || !build_statement_of(frame)->entry)
+        parser_error(parser, at, "'[' has no place here");
+    else
+        open(parser, build_statement_of(frame)->entry, at);
+}
+
+struct value build_close(struct parser *parser, struct location at)
+{
+    struct frame *frame = settled(parser);
+
+    if (!frame)
+        return (struct value){.kind = VALUE_NONE};
+    const struct statement *statement = build_statement_of(frame);
+    if (frame->arguments < statement->needed) {
+        parser_error(parser, at, "'%s' needs its %s before this",
+                     statement->word,
+                     statement->arguments[frame->arguments].word);
+        return (struct value){.kind = VALUE_NONE};
+    }
+    if (statement->close)
+        statement->close(parser, frame, at);
+    void *node = frame->node;
+    parser->builder->frames--;
+    parser->builder->fresh = node;
+    if (parser->failed || !node)
+        return (struct value){.kind = VALUE_NONE};
+    return value_node(statement->makes, node);
+}
+
+void build_close_entry(struct parser *parser, struct location at)
+{
+    build_close(parser, at);
+}
+
+const char *build_innermost(struct parser *parser, struct location *at)
+{
+    const struct frame *frame = build_top(parser);
+
+    if (!frame || frame->kind == BUILD_KINDS)
+        return NULL;
+    *at = frame->at;
+    return build_statement_of(frame)->word;
+}
+
+/* ---- what is said inside a statement ----------------------------------- */
+
+void build_misplaced(struct parser *parser, const struct frame *frame,
+                     const struct value *value, struct location at)
+{
+    parser_mistake(parser, at, "'%s' cannot have a %s",
+                   build_statement_of(frame)->word, value_name(value));
+}
+
+/* Words that change nothing in the picture are told of once for each reason.
+ */
+static void note_once(struct parser *parser, const struct param *row,
+                      struct location at)
+{
+    struct builder *builder = parser->builder;
+
+    for (int i = 0; i < builder->notes; i++)
+        if (builder->note[i] == row->note)
+            return;
+    if (builder->notes < BUILD_NOTES)
+        builder->note[builder->notes++] = row->note;
+    parser_warn(parser, at, "'%s' has no effect: %s", row->word, row->note);
+}
+
+/* The maps that whatever can be moved takes. */
+static const struct param move_rows[] = {
+    PARAM_OWN("translate", 1, 1, 0), PARAM_OWN("rotate", 1, 1, 0),
+    PARAM_OWN("scale", 1, 1, 0),     PARAM_OWN("matrix", 1, 1, 0),
+    PARAM_OWN("transform", 0, 0, 0), {0}};
+
+static bool is_move(const struct param *row)
+{
+    return row >= move_rows && row < move_rows + 5;
+}
+
+/* The row of a word, and where in the node its values go. */
+static const struct param *find_row(const struct statement *statement,
+                                    const char *word, size_t *offset)
+{
+    const struct param *row = param_find(statement->params, word);
+    const struct param_group *group = statement->groups;
+
+    *offset = 0;
+    for (; !row && group && group->rows; group++) {
+        row = param_find(group->rows, word);
+        *offset = group->offset;
+    }
+    return row || !statement->move ? row : param_find(move_rows, word);
+}
+
+bool build_claims(struct parser *parser, const struct name *word)
+{
+    const struct frame *frame = build_top(parser);
+    size_t offset;
+
+    return frame && frame->kind != BUILD_KINDS &&
+           find_row(build_statement_of(frame), word->text, &offset);
+}
+
+/* A parameter was set: what follows from that. */
+static void note_set(struct parser *parser, struct frame *frame,
+                     const struct param *row, struct location at)
+{
+    frame->given |= row->given;
+    if (row->note)
+        note_once(parser, row, at);
+    if (build_statement_of(frame)->set)
+        build_statement_of(frame)->set(parser, frame, row, at);
+}
+
+bool build_knows(const char *word)
+{
+    size_t offset;
+
+    for (int i = 0; i < BUILD_KINDS; i++)
+        if (!strcmp(statements[i]->word, word) ||
+            find_row(statements[i], word, &offset))
+            return true;
+    return false;
+}
+
+/* A row's numbers are complete: stores them, or lets the statement do so. */
+static void finish_row(struct parser *parser, struct frame *frame)
+{
+    struct builder *builder = parser->builder;
+    const struct statement *statement = build_statement_of(frame);
+    const struct param *row = frame->row;
+    struct location at = frame->row_at;
+    int count = frame->values;
+    size_t offset;
+
+    frame->row = NULL;
+    frame->values = 0;
+    if (row->kind == PARAM_CHOICE) {
+        param_choose(parser, row, NULL, NULL, at);
+    } else if (count < param_least(row)) {
+        parser_error(parser, at, "'%s' needs %s", row->word,
+                     param_least(row) > 1 ? "more numbers" : "a number");
+    } else if (is_move(row)) {
+        apply_map(parser, frame, row->word, builder->value, count,
+                  builder->value_at);
+    } else if (row->kind == PARAM_VALUES) {
+        frame->given |= row->given;
+        if (count == 0)
+            builder->value_at = at;
+        statement->values(parser, frame, row, builder->value, count, at);
+    } else {
+        find_row(statement, row->word, &offset);
+        if (param_set(parser, row, (char *)frame->node + offset, at,
+                      builder->value, count, builder->value_at))
+            note_set(parser, frame, row, at);
+    }
+}
+
+static void choose(struct parser *parser, struct frame *frame,
+                   const struct name *word, struct location at)
+{
+    const struct param *row = frame->row;
+    size_t offset;
+
+    frame->row = NULL;
+    find_row(build_statement_of(frame), row->word, &offset);
+    if (param_choose(parser, row, (char *)frame->node + offset, word->text, at))
+        note_set(parser, frame, row, at);
+}
+
+void build_word(struct parser *parser, const struct name *word,
+                struct location at)
+{
+    struct frame *frame = build_top(parser);
+    size_t offset;
+
+    if (frame && frame->row && frame->row->kind == PARAM_CHOICE) {
+        choose(parser, frame, word, at);
+        return;
+    }
+    frame = settled(parser);
+    if (!frame)
+        return;
+    const struct statement *statement = build_statement_of(frame);
+    const struct param *row = find_row(statement, word->text, &offset);
+    if (!row) {
+        report_unknown(parser, at, word->text, statement->word);
+        return;
+    }
+    if (!frame->node && !is_move(row) && row->kind != PARAM_VALUES) {
+        parser_error(parser, at, "'%s' cannot have '%s' in a mesh",
+                     statement->word, word->text);
+        return;
+    }
+    frame->row = row;
+    frame->row_at = at;
+    frame->values = 0;
+    if (param_most(row) == 0 && row->kind != PARAM_CHOICE)
+        finish_row(parser, frame);
+}
+
+/* Whether the open row has room for one more value of this kind. */
+static bool row_takes(const struct frame *frame, const struct value *value)
+{
+    const struct param *row = frame->row;
+
+    return row && frame->values < param_most(row) &&
+           (value->kind != VALUE_STRING || row->kind == PARAM_VALUES);
+}
+
+static void set_argument(struct parser *parser, struct frame *frame,
+                         const struct value *number, struct location at)
+{
+    const struct statement *statement = build_statement_of(frame);
+    const struct param *row = statement->arguments + frame->arguments;
+
+    if (!row->word) {
+        parser_mistake(parser, at, "'%s' takes no more numbers here",
+                       statement->word);
+        return;
+    }
+    param_set(parser, row, frame->node, at, number, 1, at);
+}
+
+void build_argument(struct parser *parser, const struct value *value,
+                    struct location at)
+{
+    struct frame *frame = build_top(parser);
+
+    if (!frame)
+        return;
+    if (row_takes(frame, value)) {
+        if (frame->values == 0)
+            parser->builder->value_at = at;
+        parser->builder->value[frame->values++] = *value;
+        if (frame->values == param_most(frame->row))
+            finish_row(parser, frame);
+        return;
+    }
+    frame = settled(parser);
+    if (!frame)
+        return;
+    const struct statement *statement = build_statement_of(frame);
+    if (statement->argument)
+        statement->argument(parser, frame, value, at);
+    else if (statement->arguments)
+        set_argument(parser, frame, value, at);
+    else
+        build_misplaced(parser, frame, value, at);
+    frame->arguments++;
+}
+
+/* ---- values ------------------------------------------------------------- */
 
 /* Values that a statement around copies; it refers to others. */
 static bool is_copied(enum value_kind kind)
@@ -383,15 +560,15 @@ static bool is_copied(enum value_kind kind)
 void build_apply(struct parser *parser, const struct value *value,
                  struct location at)
 {
-    struct frame *frame = build_top(parser);
+    struct frame *frame = settled(parser);
 
     if (!frame || value->kind == VALUE_NONE)
         return;
     if (value->kind == VALUE_TRANSFORM) {
         transform by = model_transform_result(value->node);
         move(parser, frame, &by, "transform", at);
-    } else if (statement_of(frame)->apply) {
-        statement_of(frame)->apply(parser, frame, value, at);
+    } else if (has_room(frame, value->kind)) {
+        build_statement_of(frame)->apply(parser, frame, value, at);
     } else {
         build_misplaced(parser, frame, value, at);
     }

@@ -18,70 +18,63 @@ bool build_finish(struct parser *parser);
 void build_release(struct parser *parser);
 
 /* `word` begins the statement; "#default" is one. */
-void build_open(struct parser *parser, const char *word, struct location at);
+void build_open(struct parser *parser, const struct name *word,
+                struct location at);
+void build_open_default(struct parser *parser, struct location at);
 /* The value that the innermost open statement makes; VALUE_NONE if it makes
  * none. */
 struct value build_close(struct parser *parser, struct location at);
+/* `[` ... `]` in it. */
+void build_open_entry(struct parser *parser, struct location at);
+void build_close_entry(struct parser *parser, struct location at);
 
 /* The keyword of the innermost open statement and where it stands; NULL if
  * none is open. */
 const char *build_innermost(struct parser *parser, struct location *at);
+/* Whether the word means something to the innermost open statement. */
+bool build_claims(struct parser *parser, const struct name *word);
+/* Whether any statement is called so or has such a parameter. */
+bool build_knows(const char *word);
 
 /* Around a value that a directive declares: the statement that the directive
  * happens to stand in is not around it. */
 void build_suspend(struct parser *parser);
 void build_resume(struct parser *parser);
 
-/* The next of the numbers that stand before a statement's modifiers. */
-void build_argument(struct parser *parser, const struct value *number,
+/* A number or a string: the word before it takes it, or the statement. */
+void build_argument(struct parser *parser, const struct value *value,
                     struct location at);
-/* A parameter: its word and the numbers after it, */
-void build_set(struct parser *parser, const struct name *word,
-               struct location at, const struct value *number, int count,
-               struct location number_at);
-/* or alone, */
+/* A word: of a parameter, of what is chosen for one, of a map. */
 void build_word(struct parser *parser, const struct name *word,
                 struct location at);
-/* or with another word: `brightness physical`. */
-void build_choose(struct parser *parser, const struct name *word,
-                  const struct name *choice, struct location at);
-/* A word of Brume's own that has no meaning yet: an error that says so. */
-void build_later(struct parser *parser, const struct name *word,
-                 struct location at);
 /* A value that an inner statement made, or that an identifier stands for. */
 void build_apply(struct parser *parser, const struct value *value,
                  struct location at);
+/* A texture and the one that is laid over it. */
+struct value build_layer(struct parser *parser, const struct value *below,
+                         const struct value *above, struct location at);
 
-/* `translate`, `rotate` or `scale` by a vector. */
-void build_move(struct parser *parser, const char *word,
-                const struct value *vector, struct location at);
-/* `matrix` with its twelve numbers. */
-void build_matrix(struct parser *parser, const struct value *number,
-                  int count, struct location at);
+/* A pigment, pattern, spline or transform as a function of core; -1: an error,
+ * reported or in `err`. */
+int build_function(struct parser *parser, const struct value *value,
+                   struct location at, struct brume_error *err);
 
-/* `uv_vectors` of a triangle: three vectors. */
-void build_uv_vectors(struct parser *parser, const struct value *uv,
-                      int count, struct location at);
-
-/* `mesh { ply "file" }`, or obj. */
-void build_mesh_file(struct parser *parser, const char *format,
-                     struct string name, struct location at);
-
-/* `density_file FORMAT "file" "grid" interpolate N fit up z`. */
-struct build_file {
-    const char *format;         /* the word: df3, vdb; ply, obj            */
-    struct string name, grid;   /* grid.text NULL: none named              */
-    struct location at;         /* of the file's name                      */
-    int interpolate;            /* -1: the format's default                */
-    bool fit, up_z;
-};
-struct build_file build_file_named(const char *format, struct string name,
-                                   struct location at);
-void build_file_interpolate(struct parser *parser, struct build_file *file,
-                            const struct value *number, struct location at);
-void build_file_up(struct parser *parser, struct build_file *file,
-                   const struct value *axis, struct location at);
-void build_density_file(struct parser *parser, const struct build_file *file);
+/* What the language's functions ask of splines and objects. `type` may be
+ * NULL: the spline's own. */
+struct value build_spline_value(struct parser *parser,
+                                const struct value *spline, int count,
+                                const struct name *type, struct location at);
+/* `inside`, `min_extent`, `max_extent`; point NULL: there is none. */
+struct value build_object_value(struct parser *parser,
+                                const struct name *function,
+                                const struct value *object,
+                                const struct value *point,
+                                struct location at);
+/* `normal` names the variable that the normal goes to, or is NULL. */
+struct value build_trace(struct parser *parser, const struct value *object,
+                         const struct value *from,
+                         const struct value *direction,
+                         const struct name *normal, struct location at);
 
 /* A value that stands on its own in the scene: an object, light, camera or
  * atmosphere is added, others have no effect there. */

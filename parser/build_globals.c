@@ -98,8 +98,12 @@ static void close_transport(struct parser *parser, struct frame *frame,
     parser->builder->globals.transport_given |= frame->given;
 }
 
+static const enum build_kind in_globals[] = {BUILD_GLOBAL_SETTINGS,
+                                             BUILD_KINDS};
+
 const struct statement build_statement_transport = {
     .word = "transport",
+    .within = in_globals,
     .params = build_transport_params,
     .open = open_transport,
     .close = close_transport,

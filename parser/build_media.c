@@ -9,7 +9,7 @@ static void open_density(struct parser *parser, struct frame *frame)
 {
     struct density *density = frame->node;
 
-    (void)parser;
+    parser->builder->file.format = NULL;
     density->by = transform_identity();
     for (int i = 0; i < 3; i++)
         density->color[i] = 1;
@@ -28,14 +28,18 @@ static void apply_density(struct parser *parser, struct frame *frame,
         build_misplaced(parser, frame, value, at);
 }
 
-static void move_density(struct parser *parser, struct frame *frame,
-                         const transform *by)
-{
-    struct density *density = frame->node;
+/* ---- the file of a density --------------------------------------------- */
 
-    (void)parser;
-    density->by = transform_then(&density->by, by);
-}
+enum { FILE_NAMED, FILE_INTERPOLATE, FILE_FIT, FILE_UP };
+
+static const struct param density_params[] = {
+    PARAM_OWN("density_file", 0, 0, -1),
+    PARAM_OWN("df3", 1, 1, FILE_NAMED),
+    PARAM_OWN("vdb", 1, 2, FILE_NAMED),
+    PARAM_OWN("interpolate", 1, 1, FILE_INTERPOLATE),
+    PARAM_OWN("fit", 0, 0, FILE_FIT),
+    PARAM_OWN("up", 1, 1, FILE_UP),
+    {0}};
 
 static enum vdb_role role_of(enum build_kind kind)
 {
@@ -44,57 +48,110 @@ static enum vdb_role role_of(enum build_kind kind)
     return kind == BUILD_AMOUNT ? VDB_FLAME : VDB_DENSITY;
 }
 
-struct build_file build_file_named(const char *format, struct string name,
-                                   struct location at)
+struct data_file data_file(const char *format, struct string name,
+                           struct location at)
 {
-    return (struct build_file){
+    return (struct data_file){
         .format = format, .name = name, .at = at, .interpolate = -1};
 }
 
-void build_file_interpolate(struct parser *parser, struct build_file *file,
-                            const struct value *number, struct location at)
+static void name_file(struct parser *parser, struct data_file *file,
+                      const struct param *row, const struct value *value,
+                      int count)
+{
+    for (int i = 0; i < count; i++)
+        if (value[i].kind != VALUE_STRING) {
+            parser_mistake(parser, parser->builder->value_at,
+                           "'%s' needs the name of a %s", row->word,
+                           i == 0 ? "file" : "grid");
+            return;
+        }
+    *file = data_file(row->word, value->string, parser->builder->value_at);
+    if (count > 1)
+        file->grid = value[1].string;
+}
+
+static void interpolate_file(struct parser *parser, struct data_file *file,
+                             const struct value *number, struct location at)
 {
     double type = trunc(number->v[0]);
 
-    if (number->terms != 1 || !(type >= 0 && type <= 2))
-        parser_error(parser, at, "'interpolate' must be 0, 1 or 2");
+    if (number->kind != VALUE_NUMBER || number->terms != 1 ||
+        !(type >= 0 && type <= 2))
+        parser_mistake(parser, at, "'interpolate' must be 0, 1 or 2");
     else
         file->interpolate = (int)type;
 }
 
-void build_file_up(struct parser *parser, struct build_file *file,
-                   const struct value *axis, struct location at)
+static void turn_file(struct parser *parser, struct data_file *file,
+                      const struct value *axis, struct location at)
 {
     struct value v = value_promote(*axis, 3);
     bool y = v.v[0] == 0 && v.v[1] == 1 && v.v[2] == 0;
 
     file->up_z = v.v[0] == 0 && v.v[1] == 0 && v.v[2] == 1;
-    if (!y && !file->up_z)
-        parser_error(parser, at, "'up' must be y or z");
+    if (axis->kind != VALUE_NUMBER || (!y && !file->up_z))
+        parser_mistake(parser, at, "'up' must be y or z");
 }
 
-void build_density_file(struct parser *parser, const struct build_file *file)
+static void density_values(struct parser *parser, struct frame *frame,
+                           const struct param *row, const struct value *value,
+                           int count, struct location at)
 {
-    struct frame *frame = build_top(parser);
+    struct data_file *file = &parser->builder->file;
 
-    if (!frame)
-        return;
-    if (frame->kind == BUILD_PIGMENT)
-        parser_error(parser, frame->at,
-                     "'density_file' in a pigment is not "
-                     "supported yet");
-    else
+    if (row->id == FILE_NAMED)
+        name_file(parser, file, row, value, count);
+    else if (row->id >= 0 && !file->format)
+        parser_mistake(parser, at, "'%s' belongs behind the name of a file",
+                       row->word);
+    else if (row->id == FILE_INTERPOLATE)
+        interpolate_file(parser, file, value, parser->builder->value_at);
+    else if (row->id == FILE_UP)
+        turn_file(parser, file, value, parser->builder->value_at);
+    else if (row->id == FILE_FIT)
+        file->fit = true;
+    (void)frame;
+}
+
+/* All that belongs to the file is said: what follows is about the density. */
+static void load_file(struct parser *parser, struct frame *frame)
+{
+    struct data_file *file = &parser->builder->file;
+
+    if (file->format)
         load_density(parser, file, role_of(frame->kind), frame->node);
+    file->format = NULL;
+}
+
+static void move_density(struct parser *parser, struct frame *frame,
+                         const transform *by)
+{
+    struct density *density = frame->node;
+
+    load_file(parser, frame);
+    density->by = transform_then(&density->by, by);
+}
+
+static void close_density(struct parser *parser, struct frame *frame,
+                          struct location at)
+{
+    (void)at;
+    load_file(parser, frame);
 }
 
 const struct statement build_statement_density = {
     .word = "density",
     .makes = VALUE_DENSITY,
+    .takes = BUILD_TAKES(VALUE_DENSITY),
     .size = sizeof(struct density),
+    .params = density_params,
+    .values = density_values,
     .arguments = density_arguments,
     .open = open_density,
     .apply = apply_density,
     .move = move_density,
+    .close = close_density,
 };
 
 /* ---- fire -------------------------------------------------------------- */
@@ -104,7 +161,7 @@ static void close_temperature(struct parser *parser, struct frame *frame,
 {
     struct fire *fire = build_around(parser)->node;
 
-    (void)at;
+    close_density(parser, frame, at);
     fire->on = true;
     fire->temperature = *(const struct density *)frame->node;
 }
@@ -114,14 +171,21 @@ static void close_amount(struct parser *parser, struct frame *frame,
 {
     struct fire *fire = build_around(parser)->node;
 
-    (void)at;
+    close_density(parser, frame, at);
     fire->has_amount = true;
     fire->amount = *(const struct density *)frame->node;
 }
 
+static const enum build_kind in_fire[] = {BUILD_FIRE, BUILD_KINDS};
+static const enum build_kind in_media[] = {BUILD_MEDIA, BUILD_KINDS};
+
 const struct statement build_statement_temperature = {
     .word = "temperature",
+    .within = in_fire,
+    .takes = BUILD_TAKES(VALUE_DENSITY),
     .size = sizeof(struct density),
+    .params = density_params,
+    .values = density_values,
     .arguments = density_arguments,
     .open = open_density,
     .apply = apply_density,
@@ -131,7 +195,11 @@ const struct statement build_statement_temperature = {
 
 const struct statement build_statement_amount = {
     .word = "amount",
+    .within = in_fire,
+    .takes = BUILD_TAKES(VALUE_DENSITY),
     .size = sizeof(struct density),
+    .params = density_params,
+    .values = density_values,
     .arguments = density_arguments,
     .open = open_density,
     .apply = apply_density,
@@ -205,6 +273,7 @@ static void close_fire(struct parser *parser, struct frame *frame,
 
 const struct statement build_statement_fire = {
     .word = "fire",
+    .within = in_media,
     .size = sizeof(struct fire),
     .params = build_fire_params,
     .open = open_fire,
@@ -254,6 +323,7 @@ static void close_scattering(struct parser *parser, struct frame *frame,
 
 const struct statement build_statement_scattering = {
     .word = "scattering",
+    .within = in_media,
     .size = sizeof(struct scattering),
     .params = build_scattering_params,
     .arguments = scattering_arguments,
@@ -331,6 +401,7 @@ static void move_media(struct parser *parser, struct frame *frame,
 const struct statement build_statement_media = {
     .word = "media",
     .makes = VALUE_MEDIA,
+    .takes = BUILD_TAKES(VALUE_MEDIA) | BUILD_TAKES(VALUE_DENSITY),
     .size = sizeof(struct media),
     .params = build_media_params,
     .open = open_media,
@@ -359,6 +430,7 @@ static void apply_interior(struct parser *parser, struct frame *frame,
 const struct statement build_statement_interior = {
     .word = "interior",
     .makes = VALUE_INTERIOR,
+    .takes = BUILD_TAKES(VALUE_INTERIOR) | BUILD_TAKES(VALUE_MEDIA),
     .size = sizeof(struct interior),
     .apply = apply_interior,
 };

@@ -8,7 +8,11 @@ const struct param build_mesh_params[] = {
     BUILD_OBJECT_ROWS,
     PARAM_ANY("inside_vector", PARAM_VECTOR, 0, 0, struct object, inside),
     PARAM_WITHOUT("hierarchy", "Brume builds its own hierarchies"),
+    PARAM_OWN("ply", 1, 1, 0),
+    PARAM_OWN("obj", 1, 1, 0),
     {0}};
+static const struct param triangle_params[] = {
+    BUILD_OBJECT_ROWS, PARAM_OWN("uv_vectors", 3, 3, 0), {0}};
 
 /* A mesh of the builder's list, so that nothing is lost when a parse fails. */
 static struct model_mesh *new_mesh(struct parser *parser, struct location at)
@@ -155,24 +159,21 @@ static void set_triangle(struct parser *parser, struct frame *frame,
     build_object_set(parser, frame, row, at);
 }
 
-void build_uv_vectors(struct parser *parser, const struct value *uv, int count,
-                      struct location at)
+/* `uv_vectors` and its three vectors. */
+static void triangle_values(struct parser *parser, struct frame *frame,
+                            const struct param *row, const struct value *uv,
+                            int count, struct location at)
 {
-    struct frame *frame = build_top(parser);
     struct builder *builder = parser->builder;
 
-    if (!frame)
-        return;
-    if (frame->kind != BUILD_TRIANGLE && frame->kind != BUILD_SMOOTH_TRIANGLE) {
-        parser_error(parser, at, "'uv_vectors' belongs to triangles here");
-        return;
-    }
-    if (count != 3) {
-        parser_error(parser, at, "a triangle has 3 uv_vectors, not %d", count);
-        return;
-    }
-    builder->uvs = 3;
-    for (int i = 0; i < 3; i++) {
+    (void)frame;
+    (void)row;
+    builder->uvs = count;
+    for (int i = 0; i < count; i++) {
+        if (uv[i].kind != VALUE_NUMBER) {
+            parser_mistake(parser, at, "'uv_vectors' needs three vectors");
+            return;
+        }
         builder->uv[i][0] = (float)uv[i].v[0];
         builder->uv[i][1] = (float)value_promote(uv[i], 2).v[1];
     }
@@ -193,7 +194,9 @@ static const struct param smooth_rows[] = {{.word = "first corner"},
 const struct statement build_statement_triangle = {
     .word = "triangle",
     .makes = VALUE_OBJECT,
-    .params = build_object_params,
+    .takes = BUILD_TAKES_WORN,
+    .params = triangle_params,
+    .values = triangle_values,
     .arguments = triangle_rows,
     .needed = 3,
     .open = open_triangle,
@@ -207,7 +210,9 @@ const struct statement build_statement_triangle = {
 const struct statement build_statement_smooth_triangle = {
     .word = "smooth_triangle",
     .makes = VALUE_OBJECT,
-    .params = build_object_params,
+    .takes = BUILD_TAKES_WORN,
+    .params = triangle_params,
+    .values = triangle_values,
     .arguments = smooth_rows,
     .needed = 6,
     .open = open_triangle,
@@ -237,22 +242,37 @@ void build_mesh_set(struct parser *parser, struct frame *frame,
     build_object_set(parser, frame, row, at);
 }
 
-void build_mesh_file(struct parser *parser, const char *format,
-                     struct string name, struct location at)
+static void mesh_file(struct parser *parser, struct frame *frame,
+                      const struct param *row, const struct value *name,
+                      int count, struct location at)
 {
-    struct build_file file = build_file_named(format, name, at);
-    struct frame *frame = build_top(parser);
-
-    if (!frame)
-        return;
     struct object *object = frame->node;
-    if (object->mesh->mesh == NULL || object->mesh->mesh->triangles > 0) {
-        parser_error(parser, at, "a mesh has triangles or one file, not both");
+
+    (void)count;
+    if (name->kind != VALUE_STRING) {
+        parser_mistake(parser, at, "'%s' needs the name of a file", row->word);
         return;
     }
+    if (object->mesh->mesh == NULL || object->mesh->mesh->triangles > 0) {
+        parser_error(parser, parser->builder->value_at,
+                     "a mesh has triangles or one file, not both");
+        return;
+    }
+    struct data_file file = data_file(row->word, name->string,
+                                      parser->builder->value_at);
     struct model_mesh *mesh = load_mesh(parser, &file);
     if (mesh)
         object->mesh = mesh;
+}
+
+/* A triangle adds itself when it is closed. */
+static void apply_mesh(struct parser *parser, struct frame *frame,
+                       const struct value *value, struct location at)
+{
+    if (value->kind != VALUE_OBJECT)
+        build_object_apply(parser, frame, value, at);
+    else
+        parser_error(parser, at, "a mesh takes triangles only");
 }
 
 static void close_mesh(struct parser *parser, struct frame *frame,
@@ -269,10 +289,12 @@ static void close_mesh(struct parser *parser, struct frame *frame,
 const struct statement build_statement_mesh = {
     .word = "mesh",
     .makes = VALUE_OBJECT,
+    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT),
     .size = sizeof(struct object),
     .params = build_mesh_params,
     .open = open_mesh,
-    .apply = build_object_apply,
+    .values = mesh_file,
+    .apply = apply_mesh,
     .move = build_object_move,
     .close = close_mesh,
     .set = build_mesh_set,

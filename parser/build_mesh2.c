@@ -117,11 +117,13 @@ static void close_list(struct parser *parser, struct frame *frame,
                      (long long)builder->announced, (long long)builder->listed);
 }
 
+static const enum build_kind in_mesh2[] = {BUILD_MESH2, BUILD_KINDS};
 static const struct param list_rows[] = {{.word = "count"}, {0}};
 
 #define LIST_STATEMENT(name, item)                                             \
     const struct statement build_statement_##name = {                          \
         .word = #name,                                                         \
+        .within = in_mesh2,                                                    \
         .arguments = list_rows,                                                \
         .needed = 1,                                                           \
         .open = open_list,                                                     \
@@ -223,6 +225,7 @@ static void close_mesh2(struct parser *parser, struct frame *frame,
 const struct statement build_statement_mesh2 = {
     .word = "mesh2",
     .makes = VALUE_OBJECT,
+    .takes = BUILD_TAKES_WORN,
     .size = sizeof(struct object),
     .params = build_mesh_params,
     .open = open_mesh2,

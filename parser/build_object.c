@@ -30,30 +30,10 @@ void build_object_set(struct parser *parser, struct frame *frame,
     object->inverse = !object->inverse;
 }
 
-static struct object *object_of(const struct frame *frame)
-{
-    switch (frame->kind) {
-    case BUILD_SPHERE:
-    case BUILD_BOX:
-    case BUILD_CYLINDER:
-    case BUILD_CONE:
-    case BUILD_PLANE:
-    case BUILD_DISC:
-    case BUILD_TRIANGLE:
-    case BUILD_SMOOTH_TRIANGLE:
-    case BUILD_MESH:
-    case BUILD_MESH2:
-    case BUILD_UNION:
-    case BUILD_OBJECT:
-        return frame->node;
-    default:
-        return NULL;
-    }
-}
-
 const struct object *build_object_of(const struct frame *frame)
 {
-    return object_of(frame);
+    return build_statement_of(frame)->makes == VALUE_OBJECT ? frame->node
+                                                            : NULL;
 }
 
 void build_object_apply(struct parser *parser, struct frame *frame,
@@ -195,6 +175,7 @@ static void close_shape(struct parser *parser, struct frame *frame,
     const struct statement build_statement_##name = {                          \
         .word = #name,                                                         \
         .makes = VALUE_OBJECT,                                                 \
+        .takes = BUILD_TAKES_WORN,                                             \
         .size = sizeof(struct object),                                         \
         .params = table,                                                       \
         .arguments = name##_arguments,                                         \
@@ -254,6 +235,8 @@ static void close_union(struct parser *parser, struct frame *frame,
 const struct statement build_statement_union = {
     .word = "union",
     .makes = VALUE_OBJECT,
+    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT) |
+             BUILD_TAKES(VALUE_LIGHT),
     .size = sizeof(struct object),
     .params = build_object_params,
     .open = open_union,
@@ -299,6 +282,8 @@ static void close_object(struct parser *parser, struct frame *frame,
 const struct statement build_statement_object = {
     .word = "object",
     .makes = VALUE_OBJECT,
+    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT) |
+             BUILD_TAKES(VALUE_LIGHT),
     .size = sizeof(struct object),
     .params = build_object_params,
     .open = open_object,
@@ -307,3 +292,49 @@ const struct statement build_statement_object = {
     .close = close_object,
     .set = build_object_set,
 };
+
+/* ---- what functions ask of values -------------------------------------- */
+
+struct value build_spline_value(struct parser *parser,
+                                const struct value *spline, int count,
+                                const struct name *type, struct location at)
+{
+    (void)spline;
+    (void)count;
+    (void)type;
+    parser_mistake(parser, at, "splines are not supported yet");
+    return value_float(0);
+}
+
+struct value build_object_value(struct parser *parser,
+                                const struct name *function,
+                                const struct value *object,
+                                const struct value *point, struct location at)
+{
+    (void)object;
+    (void)point;
+    parser_mistake(parser, at, "'%s' is not supported yet", function->text);
+    return value_float(0);
+}
+
+struct value build_trace(struct parser *parser, const struct value *object,
+                         const struct value *from,
+                         const struct value *direction,
+                         const struct name *normal, struct location at)
+{
+    (void)object;
+    (void)from;
+    (void)direction;
+    (void)normal;
+    parser_mistake(parser, at, "'trace' is not supported yet");
+    return value_float(0);
+}
+
+int build_function(struct parser *parser, const struct value *value,
+                   struct location at, struct brume_error *err)
+{
+    (void)err;
+    parser_mistake(parser, at, "a function of a %s is not supported yet",
+                   value_name(value));
+    return -1;
+}

@@ -108,6 +108,7 @@ static void move_pigment(struct parser *parser, struct frame *frame,
 const struct statement build_statement_pigment = {
     .word = "pigment",
     .makes = VALUE_PIGMENT,
+    .takes = BUILD_TAKES(VALUE_PIGMENT),
     .size = sizeof(struct pigment),
     .params = pigment_params,
     .open = open_pigment,
@@ -157,6 +158,7 @@ static void apply_finish(struct parser *parser, struct frame *frame,
 const struct statement build_statement_finish = {
     .word = "finish",
     .makes = VALUE_FINISH,
+    .takes = BUILD_TAKES(VALUE_FINISH),
     .size = sizeof(struct finish),
     .params = build_finish_params,
     .open = open_finish,
@@ -206,6 +208,8 @@ static void move_texture(struct parser *parser, struct frame *frame,
 const struct statement build_statement_texture = {
     .word = "texture",
     .makes = VALUE_TEXTURE,
+    .takes = BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |
+             BUILD_TAKES(VALUE_FINISH),
     .size = sizeof(struct texture),
     .open = open_texture,
     .apply = apply_texture,
@@ -219,7 +223,8 @@ static void open_default(struct parser *parser, struct frame *frame)
 
 const struct statement build_statement_default = {
     .word = "#default",
-    .makes = VALUE_NONE,
+    .takes = BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |
+             BUILD_TAKES(VALUE_FINISH),
     .open = open_default,
     .apply = apply_texture,
 };
@@ -311,8 +316,18 @@ static void move_material(struct parser *parser, struct frame *frame,
 const struct statement build_statement_material = {
     .word = "material",
     .makes = VALUE_MATERIAL,
+    .takes = BUILD_TAKES(VALUE_MATERIAL) | BUILD_TAKES(VALUE_TEXTURE) |
+             BUILD_TAKES(VALUE_INTERIOR),
     .size = sizeof(struct material),
     .open = open_material,
     .apply = apply_material,
     .move = move_material,
 };
+
+struct value build_layer(struct parser *parser, const struct value *below,
+                         const struct value *above, struct location at)
+{
+    (void)above;
+    parser_mistake(parser, at, "layered textures are not supported yet");
+    return *below;
+}

@@ -8,18 +8,28 @@
 #include "parser/model.h"
 #include "parser/param.h"
 
-/* Statements with braces. BUILD_KINDS parts a value from what is around. */
+/* Statements with braces, a row each: the name of its enum build_kind, and of
+ * its build_statement_. BUILD_KINDS parts a value from what is around. */
+#define BUILD_STATEMENTS(X)                                                   \
+    X(TRIANGLE, triangle) X(SMOOTH_TRIANGLE, smooth_triangle)                 \
+    X(SPHERE, sphere) X(BOX, box) X(CYLINDER, cylinder) X(CONE, cone)         \
+    X(PLANE, plane) X(DISC, disc) X(MESH, mesh) X(MESH2, mesh2)               \
+    X(UNION, union) X(OBJECT, object)                                         \
+    X(VERTEX_VECTORS, vertex_vectors) X(NORMAL_VECTORS, normal_vectors)       \
+    X(UV_VECTORS, uv_vectors) X(FACE_INDICES, face_indices)                   \
+    X(NORMAL_INDICES, normal_indices) X(UV_INDICES, uv_indices)               \
+    X(PIGMENT, pigment) X(FINISH, finish) X(TEXTURE, texture)                 \
+    X(MATERIAL, material) X(INTERIOR, interior) X(MEDIA, media)               \
+    X(SCATTERING, scattering) X(DENSITY, density) X(FIRE, fire)               \
+    X(TEMPERATURE, temperature) X(AMOUNT, amount)                             \
+    X(TRANSFORM, transform) X(CAMERA, camera) X(LIGHT, light)                 \
+    X(BACKGROUND, background) X(GLOBAL_SETTINGS, global_settings)             \
+    X(TRANSPORT, transport) X(DEFAULT, default)
+
 enum build_kind {
-    BUILD_TRIANGLE, BUILD_SMOOTH_TRIANGLE,
-    BUILD_SPHERE, BUILD_BOX, BUILD_CYLINDER, BUILD_CONE, BUILD_PLANE,
-    BUILD_DISC, BUILD_MESH, BUILD_MESH2, BUILD_UNION, BUILD_OBJECT,
-    BUILD_PIGMENT, BUILD_FINISH, BUILD_TEXTURE, BUILD_MATERIAL,
-    BUILD_INTERIOR, BUILD_MEDIA, BUILD_SCATTERING, BUILD_DENSITY,
-    BUILD_FIRE, BUILD_TEMPERATURE, BUILD_AMOUNT,
-    BUILD_VERTEX_VECTORS, BUILD_NORMAL_VECTORS, BUILD_UV_VECTORS,
-    BUILD_FACE_INDICES, BUILD_NORMAL_INDICES, BUILD_UV_INDICES,
-    BUILD_TRANSFORM, BUILD_CAMERA, BUILD_LIGHT, BUILD_BACKGROUND,
-    BUILD_GLOBAL_SETTINGS, BUILD_TRANSPORT, BUILD_DEFAULT,
+#define X(kind, name) BUILD_##kind,
+    BUILD_STATEMENTS(X)
+#undef X
     BUILD_KINDS
 };
 
@@ -30,22 +40,50 @@ struct frame {
     int arguments;              /* numbers given before its modifiers      */
     unsigned given;             /* bits of the parameters that were set    */
     void *node;                 /* what is being made: the kind's struct   */
+    const struct param *row;    /* the word whose numbers are being read   */
+    struct location row_at;
+    int values;                 /* of them so far, in builder.value        */
 };
+
+/* Rows that several statements share, and where what they set lies in the
+ * statement's node. */
+struct param_group {
+    const struct param *rows;   /* NULL ends a list of groups              */
+    size_t offset;
+};
+
+#define BUILD_TAKES(kind) (UINT64_C(1) << (kind))
+/* What every object wears and holds. */
+#define BUILD_TAKES_WORN                                                      \
+    (BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |                \
+     BUILD_TAKES(VALUE_FINISH) | BUILD_TAKES(VALUE_MATERIAL) |                \
+     BUILD_TAKES(VALUE_INTERIOR))
 
 /* How statements of a kind behave; NULL where they do not do that. */
 struct statement {
     const char *word;
     enum value_kind makes;      /* VALUE_NONE: goes to the statement around */
+    uint64_t takes;             /* kinds of values it has room for         */
+    /* Statements that this one belongs into, ending with BUILD_KINDS; NULL:
+     * it stands on its own, or where a value of its kind can. */
+    const enum build_kind *within;
     size_t size;                /* of the node; 0: it shares the one around */
     const struct param *params;
+    const struct param_group *groups;
     const struct param *arguments;  /* a row each, in order                */
     int needed;                 /* of the arguments                        */
+    enum build_kind entry;      /* what `[ ... ]` in it is; 0: no entries  */
     void (*open)(struct parser *parser, struct frame *frame);
+    /* A number, or a string, that no word takes. */
     void (*argument)(struct parser *parser, struct frame *frame,
                      const struct value *number, struct location at);
     /* A parameter was stored. */
     void (*set)(struct parser *parser, struct frame *frame,
                 const struct param *row, struct location at);
+    /* A row of PARAM_VALUES with its `count` numbers and strings. */
+    void (*values)(struct parser *parser, struct frame *frame,
+                   const struct param *row, const struct value *value,
+                   int count, struct location at);
     void (*apply)(struct parser *parser, struct frame *frame,
                   const struct value *value, struct location at);
     void (*move)(struct parser *parser, struct frame *frame,
@@ -54,23 +92,9 @@ struct statement {
                   struct location at);
 };
 
-extern const struct statement build_statement_camera,
-    build_statement_light, build_statement_sphere, build_statement_box,
-    build_statement_cylinder, build_statement_cone, build_statement_plane,
-    build_statement_disc, build_statement_triangle,
-    build_statement_smooth_triangle, build_statement_mesh,
-    build_statement_mesh2, build_statement_union, build_statement_object,
-    build_statement_vertex_vectors, build_statement_normal_vectors,
-    build_statement_uv_vectors, build_statement_face_indices,
-    build_statement_normal_indices, build_statement_uv_indices,
-    build_statement_pigment, build_statement_finish, build_statement_texture,
-    build_statement_material, build_statement_interior,
-    build_statement_media, build_statement_scattering,
-    build_statement_density, build_statement_fire,
-    build_statement_temperature, build_statement_amount,
-    build_statement_transform, build_statement_background,
-    build_statement_global_settings, build_statement_transport,
-    build_statement_default;
+#define X(kind, name) extern const struct statement build_statement_##name;
+BUILD_STATEMENTS(X)
+#undef X
 
 /* Bits of frame.given with a meaning beyond their file. */
 enum { PIGMENT_PATTERN = 1, OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
@@ -121,6 +145,8 @@ struct builder {
     struct spare *spare[VALUE_KINDS];
     const void *fresh;              /* the value made last, while only the
                                        grammar has it                      */
+    struct value value[PARAM_MOST]; /* of the innermost frame's row        */
+    struct location value_at;       /* of the first of them                */
     struct texture default_texture;
     struct globals globals;
     const struct camera *camera;    /* the last one placed                 */
@@ -137,12 +163,14 @@ struct builder {
     struct intern intern[4];        /* what core has: see build_place.c    */
     struct placing *placing;        /* the unions being placed             */
     size_t placing_room;
+    struct data_file file;          /* of the open density                 */
     struct loader loader;
     const char *note[BUILD_NOTES];  /* given already                       */
     int notes;
 };
 
 struct frame *build_top(struct parser *parser);
+const struct statement *build_statement_of(const struct frame *frame);
 /* The frame around the innermost one, or NULL. */
 struct frame *build_around(struct parser *parser);
 

@@ -48,6 +48,11 @@ static double degrees(double x)
     return x * 180 / PI;
 }
 
+static double square(double x)
+{
+    return x * x;
+}
+
 static double radians(double x)
 {
     return x * PI / 180;
@@ -528,6 +533,7 @@ static const struct builtin table[] = {
     {"select", "fn", 3, 4, NULL, run_select},
     {"sin", "f", 1, 1, sin, NULL},
     {"sinh", "f", 1, 1, sinh, NULL},
+    {"sqr", "f", 1, 1, square, NULL},
     {"sqrt", "f", 1, 1, NULL, run_sqrt},
     {"str", "f", 3, 3, NULL, run_str},
     {"strcmp", "s", 2, 2, NULL, run_strcmp},

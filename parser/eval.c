@@ -1,5 +1,6 @@
 #include "parser/eval.h"
 #include "parser/builtin.h"
+#include "parser/formula.h"
 #include "parser/grammar.h"
 #include "parser/report.h"
 #include <math.h>
@@ -10,21 +11,57 @@
 struct value eval_float(struct parser *parser, const struct value *value,
                         struct location at)
 {
-    if (value->terms != 1) {
-        parser_error(parser, at, "expected a float, found a %s",
-                     value_name(value));
+    if (formula_is(value)) {
+        return *value;
     }
-    return value_float(value->v[0]);
+    if (value->kind != VALUE_NUMBER || value->terms != 1) {
+        parser_mistake(parser, at, "expected a float, found a %s",
+                       value_name(value));
+    }
+    return value_float(value->kind == VALUE_NUMBER ? value->v[0] : 0);
+}
+
+/* Long vectors are for the statements that want them. */
+static bool is_number(struct parser *parser, const struct value *value,
+                      struct location at)
+{
+    return value->kind == VALUE_NUMBER ||
+           parser_mistake(parser, at, "cannot compute with a %s",
+                          value_name(value));
 }
 
 struct value eval_binary(struct parser *parser, int op, const struct value *a,
                          const struct value *b, struct location at)
 {
     struct value result;
+    if (formula_is(a) || formula_is(b)) {
+        return formula_binary(parser, op, a, b, at);
+    }
+    if (!is_number(parser, a, at) || !is_number(parser, b, at)) {
+        return value_float(0);
+    }
     if (!value_combine((enum value_operator)op, a, b, &result)) {
         parser_warn(parser, at, "division by zero gives infinity");
     }
     return result;
+}
+
+struct value eval_negate(struct parser *parser, const struct value *value,
+                         struct location at)
+{
+    if (formula_is(value)) {
+        return formula_negate(parser, value, at);
+    }
+    return is_number(parser, value, at) ? value_negate(*value) : value_float(0);
+}
+
+struct value eval_not(struct parser *parser, const struct value *value,
+                      struct location at)
+{
+    if (formula_is(value)) {
+        return formula_not(parser, value, at);
+    }
+    return is_number(parser, value, at) ? value_not(*value) : value_float(0);
 }
 
 struct value eval_compare(int op, const struct value *a, const struct value *b)
@@ -41,11 +78,17 @@ struct value eval_choice(struct parser *parser, const struct value *condition,
                          struct location at)
 {
     struct value chosen = eval_float(parser, condition, at);
+    if (formula_is(condition)) {
+        parser_mistake(parser, at,
+                       "'?' cannot be used in a function: use "
+                       "'select'");
+        return value_float(0);
+    }
     return value_is_true(chosen.v[0]) ? *yes : *no;
 }
 
-struct value eval_component(struct parser *parser, const struct value *value,
-                            const struct name *component, struct location at)
+/* The term that a component names; -1: none. */
+static int component_index(const struct name *component)
 {
     static const struct {
         const char *word;
@@ -53,22 +96,54 @@ struct value eval_component(struct parser *parser, const struct value *value,
     } names[] = {{"x", 0}, {"u", 0},      {"red", 0},     {"y", 1},
                  {"v", 1}, {"green", 1},  {"z", 2},       {"blue", 2},
                  {"t", 3}, {"filter", 3}, {"transmit", 4}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(component->text, names[i].word) == 0) {
+            return names[i].index;
+        }
+    }
+    return -1;
+}
+
+static struct value formula_part(struct parser *parser,
+                                 const struct value *value,
+                                 const struct name *component,
+                                 struct location at)
+{
+    int index = strcmp(component->text, "gray") == 0 ? FORMULA_GRAY
+                : strcmp(component->text, "hf") == 0
+                    ? FORMULA_HEIGHT
+                    : component_index(component);
+    if (index < 0) {
+        parser_mistake(parser, at, "unknown component '%.40s'",
+                       component->text);
+        return value_float(0);
+    }
+    return formula_component(parser, value, (enum formula_part)index, at);
+}
+
+struct value eval_component(struct parser *parser, const struct value *value,
+                            const struct name *component, struct location at)
+{
+    if (formula_is(value) || !is_number(parser, value, at)) {
+        return formula_is(value) ? formula_part(parser, value, component, at)
+                                 : value_float(0);
+    }
     if (strcmp(component->text, "gray") == 0) {
         struct value c = value_promote(*value, 3);
         return value_float(0.297 * c.v[0] + 0.589 * c.v[1] + 0.114 * c.v[2]);
     }
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (strcmp(component->text, names[i].word) != 0) {
-            continue;
-        }
-        if (value->terms > 1 && names[i].index >= value->terms) {
-            parser_error(parser, at, "a vector of %d terms has no '%s'",
-                         value->terms, component->text);
-        }
-        return value_float(value->v[value->terms > 1 ? names[i].index : 0]);
+    int index = component_index(component);
+    if (index < 0) {
+        parser_mistake(parser, at, "unknown component '%.40s'",
+                       component->text);
+        return value_float(0);
     }
-    parser_error(parser, at, "unknown component '%.40s'", component->text);
-    return value_float(0);
+    if (value->terms > 1 && index >= value->terms) {
+        parser_mistake(parser, at, "a vector of %d terms has no '%s'",
+                       value->terms, component->text);
+        return value_float(0);
+    }
+    return value_float(value->v[value->terms > 1 ? index : 0]);
 }
 
 /* ---- lists ------------------------------------------------------------- */
@@ -93,20 +168,45 @@ const struct value *eval_pop(struct parser *parser, int count)
     return parser->stack + parser->stacked;
 }
 
+static struct value long_vector(struct parser *parser, int count,
+                                const struct value *item)
+{
+    struct list *list = parser_alloc(parser, sizeof *list + (size_t)count *
+                                                                sizeof(double));
+    struct value value = {.kind = VALUE_LIST, .terms = count};
+    if (!list) {
+        return value_float(0);
+    }
+    list->count = count;
+    for (int i = 0; i < count; i++) {
+        list->term[i] = item[i].v[0];
+    }
+    value.list = list;
+    return value;
+}
+
 struct value eval_components(struct parser *parser, int count,
                              struct location at)
 {
     const struct value *item = eval_pop(parser, count);
     struct value vector = {.kind = VALUE_NUMBER, .terms = count};
-    if (count < 2 || count > VALUE_TERMS) {
-        parser_error(parser, at, "a vector has 2 to %d terms, not %d",
-                     VALUE_TERMS, count);
+    for (int i = 0; i < count; i++) {
+        if (item[i].kind != VALUE_NUMBER || item[i].terms != 1) {
+            parser_mistake(parser, at,
+                           "a term of a vector is a float, not a "
+                           "%s",
+                           value_name(&item[i]));
+            return value_float(0);
+        }
+        if (count <= VALUE_TERMS) {
+            vector.v[i] = item[i].v[0];
+        }
+    }
+    if (count < 2) {
+        parser_mistake(parser, at, "a vector has at least 2 terms");
         return value_float(0);
     }
-    for (int i = 0; i < count && !parser->failed; i++) {
-        vector.v[i] = eval_float(parser, &item[i], at).v[0];
-    }
-    return vector;
+    return count <= VALUE_TERMS ? vector : long_vector(parser, count, item);
 }
 
 struct value eval_call(struct parser *parser, const struct name *function,
@@ -114,6 +214,11 @@ struct value eval_call(struct parser *parser, const struct name *function,
 {
     const struct value *argument = eval_pop(parser, count);
     struct value result = value_float(0);
+    for (int i = 0; i < count; i++) {
+        if (formula_is(&argument[i])) {
+            return formula_builtin(parser, function->text, argument, count, at);
+        }
+    }
     if (!parser->failed) {
         result = builtin_call(parser, function, argument, count, at);
     }
@@ -138,6 +243,9 @@ struct color eval_color_rgb(struct parser *parser, const struct name *word,
                             const struct value *value, struct location at)
 {
     struct color color = {.given = 7};
+    if (!is_number(parser, value, at)) {
+        return color;
+    }
     bool srgb = word->text[0] == 's';
     const char *rest = word->text + (srgb ? 4 : 3);
     int terms = 3 + (int)strlen(rest);
@@ -158,9 +266,13 @@ struct color eval_color_rgb(struct parser *parser, const struct name *word,
     return color;
 }
 
-struct color eval_color_all(const struct value *value)
+struct color eval_color_all(struct parser *parser, const struct value *value,
+                            struct location at)
 {
     struct color color = {.given = (1u << VALUE_TERMS) - 1};
+    if (!is_number(parser, value, at)) {
+        return color;
+    }
     struct value v = value_promote(*value, VALUE_TERMS);
     memcpy(color.v, v.v, sizeof color.v);
     return color;
@@ -187,14 +299,6 @@ struct color eval_color_join(const struct color *a, const struct color *b)
 struct value eval_color(const struct color *color)
 {
     return value_vector(VALUE_TERMS, color->v);
-}
-
-struct value eval_color_set(const struct value *value,
-                            const struct color *color)
-{
-    struct color base = eval_color_all(value);
-    struct color joined = eval_color_join(&base, color);
-    return eval_color(&joined);
 }
 
 /* ---- arrays ------------------------------------------------------------ */

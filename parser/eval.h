@@ -16,6 +16,10 @@ struct value eval_float(struct parser *parser, const struct value *value,
 
 struct value eval_binary(struct parser *parser, int op, const struct value *a,
                          const struct value *b, struct location at);
+struct value eval_negate(struct parser *parser, const struct value *value,
+                         struct location at);
+struct value eval_not(struct parser *parser, const struct value *value,
+                      struct location at);
 struct value eval_compare(int op, const struct value *a,
                           const struct value *b);
 struct value eval_choice(struct parser *parser, const struct value *condition,
@@ -37,13 +41,12 @@ struct value eval_call(struct parser *parser, const struct name *function,
  * and its like by the term; a color with others of its terms set. */
 struct color eval_color_rgb(struct parser *parser, const struct name *word,
                             const struct value *value, struct location at);
-struct color eval_color_all(const struct value *value);
+struct color eval_color_all(struct parser *parser, const struct value *value,
+                            struct location at);
 struct color eval_color_term(struct parser *parser, int term,
                              const struct value *value, struct location at);
 struct color eval_color_join(const struct color *a, const struct color *b);
 struct value eval_color(const struct color *color);
-struct value eval_color_set(const struct value *value,
-                            const struct color *color);
 
 /* Arrays: `{ items }` as a list, `array[sizes]` with a list or NULL. */
 struct value eval_list(struct parser *parser, int count);

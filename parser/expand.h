@@ -112,6 +112,7 @@ struct expander {
     struct scene_yypstate **spare;  /* parsers to be used again            */
     size_t spares, spare_room;
     struct location place;          /* of the last token that was pushed   */
+    bool want_name;                 /* see expander_want_name              */
     bool held;                      /* hold_value is to be pushed next     */
     struct location hold_at;
     struct value hold_value;

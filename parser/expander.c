@@ -1,5 +1,6 @@
 #include "parser/expand.h"
 #include "lib/timer.h"
+#include "parser/build.h"
 #include "parser/report.h"
 #include <ctype.h>
 
@@ -247,30 +248,19 @@ void expand_hold(struct expander *expander, const struct value *value,
 /* The token of a value. */
 static int kind_of(const struct value *value)
 {
-    static const uint16_t kinds[VALUE_KINDS] = {
-        [VALUE_NONE] = TOK_IDENTIFIER,
-        [VALUE_STRING] = TOK_STRING_ID,
-        [VALUE_ARRAY] = TOK_ARRAY_ID,
-        [VALUE_MACRO] = TOK_MACRO_ID,
-        [VALUE_OBJECT] = TOK_OBJECT_ID,
-        [VALUE_TEXTURE] = TOK_TEXTURE_ID,
-        [VALUE_PIGMENT] = TOK_PIGMENT_ID,
-        [VALUE_NORMAL] = TOK_NORMAL_ID,
-        [VALUE_FINISH] = TOK_FINISH_ID,
-        [VALUE_COLOR_MAP] = TOK_MAP_ID,
-        [VALUE_MATERIAL] = TOK_MATERIAL_ID,
-        [VALUE_INTERIOR] = TOK_INTERIOR_ID,
-        [VALUE_MEDIA] = TOK_MEDIA_ID,
-        [VALUE_DENSITY] = TOK_DENSITY_ID,
-        [VALUE_TRANSFORM] = TOK_TRANSFORM_ID,
-        [VALUE_CAMERA] = TOK_CAMERA_ID,
-        [VALUE_LIGHT] = TOK_LIGHT_ID};
+    static const uint16_t kinds[VALUE_OBJECT] = {
+        [VALUE_NONE] = TOK_IDENTIFIER,     [VALUE_STRING] = TOK_STRING_ID,
+        [VALUE_ARRAY] = TOK_ARRAY_ID,      [VALUE_MACRO] = TOK_MACRO_ID,
+        [VALUE_LIST] = TOK_VECTOR_ID,      [VALUE_FORMULA] = TOK_FLOAT_ID,
+        [VALUE_FUNCTION] = TOK_FUNCTION_ID};
     if (value->kind == VALUE_NUMBER) {
         return value->terms == 1             ? TOK_FLOAT_ID
                : value->terms == VALUE_TERMS ? TOK_COLOR_ID
                                              : TOK_VECTOR_ID;
     }
-    return kinds[value->kind];
+    return value->kind < VALUE_OBJECT    ? kinds[value->kind]
+           : value->kind == VALUE_SPLINE ? TOK_SPLINE_ID
+                                         : TOK_NODE_ID;
 }
 
 static bool push_value(struct expander *expander, const struct value *value,
@@ -287,11 +277,39 @@ static bool push_word(struct expander *expander, int kind,
     return push(expander, kind, &meaning, token_location(token));
 }
 
+/* A word of values, as `filter` or `sqr`, that the open statement knows as its
+ * own. */
+static int word_kind(const struct expander *expander, const struct token *token)
+{
+    switch (token->kind) {
+    case TOK_NUMBER_FUNCTION:
+    case TOK_FILTER:
+    case TOK_TRANSMIT:
+    case TOK_RED:
+    case TOK_GREEN:
+    case TOK_BLUE:
+        return build_claims(expander->parser, token->name) ? TOK_WORD
+                                                           : token->kind;
+    default:
+        return token->kind;
+    }
+}
+
+void expander_want_name(struct parser *parser, bool wanted)
+{
+    parser->expander->want_name = wanted;
+}
+
 /* A name: what it stands for, or one of Brume's own words. */
 static bool run_name(struct expander *expander, const struct token *token)
 {
     struct value *value = symbols_find(token->name);
     struct location at = token_location(token);
+    if (expander->want_name) {
+        expander->want_name = false;
+        expand_frame(expander)->next++;
+        return push_word(expander, TOK_IDENTIFIER, token);
+    }
     if (!value && !token->name->keyword) {
         report_undeclared(expander->parser, at, token->name);
         return false;
@@ -511,7 +529,7 @@ static bool run_token(struct expander *expander)
     default:
         return is_directive(token->kind)
                    ? run_directive(expander, token)
-                   : push_word(expander, token->kind, token);
+                   : push_word(expander, word_kind(expander, token), token);
     }
     SCENE_YYSTYPE meaning = {.value = value};
     return push(expander, token->kind, &meaning, token_location(token));

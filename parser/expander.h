@@ -16,6 +16,9 @@ bool expander_run(struct parser *parser);
 void expander_result(struct parser *parser, const struct value *value);
 void expander_count(struct parser *parser, int count);
 
+/* Whether the next name goes to the grammar as it is, whatever it means. */
+void expander_want_name(struct parser *parser, bool wanted);
+
 /* The directive under way, for diagnostics without a better place. */
 struct location expander_place(const struct parser *parser);
 

@@ -17,6 +17,7 @@
 %code requires {
 #include "parser/eval.h"
 #include "parser/build.h"
+#include "parser/formula.h"
 #include "parser/token.h"
 #include "parser/value.h"
 
@@ -52,7 +53,6 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
     struct value value;
     struct name *name;
     struct color color;
-    struct build_file file;
     int count;
 }
 
@@ -81,70 +81,35 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token <value> FLOAT_ID "float identifier" VECTOR_ID "vector identifier"
 %token <value> COLOR_ID "color identifier" STRING_ID "string identifier"
 %token <value> ARRAY_ID "array identifier" MACRO_ID "macro identifier"
-%token <value> OBJECT_ID "object identifier" TEXTURE_ID "texture identifier"
-%token <value> PIGMENT_ID "pigment identifier" NORMAL_ID "normal identifier"
-%token <value> FINISH_ID "finish identifier" MAP_ID "color_map identifier"
-%token <value> MATERIAL_ID "material identifier"
-%token <value> INTERIOR_ID "interior identifier" MEDIA_ID "media identifier"
-%token <value> DENSITY_ID "density identifier"
-%token <value> TRANSFORM_ID "transform identifier"
-%token <value> CAMERA_ID "camera identifier"
-%token <value> LIGHT_ID "light_source identifier"
+%token <value> NODE_ID "identifier of a statement"
+%token <value> FUNCTION_ID "function identifier" SPLINE_ID "spline identifier"
 
 %token <name> NUMBER_FUNCTION "numeric function"
 %token <name> STRING_FUNCTION "string function"
+%token <name> OBJECT_FUNCTION "object function" TRACE "'trace'"
+%token <name> SERIES "'sum' or 'prod'"
 %token DEFINED "'defined'" DIMENSIONS "'dimensions'"
 %token DIMENSION_SIZE "'dimension_size'"
-%token ARRAY "'array'"
+%token ARRAY "'array'" <name> FUNCTION "'function'" INTERNAL "'internal'"
 
-%token COLOR "'color'" RED "'red'" GREEN "'green'" BLUE "'blue'"
-%token FILTER "'filter'" TRANSMIT "'transmit'"
-%token <name> RGB "color keyword"
+%token COLOR "'color'" <name> RED "'red'" GREEN "'green'" BLUE "'blue'"
+%token <name> FILTER "'filter'" TRANSMIT "'transmit'" RGB "color keyword"
 
 %token ';'
 %token LESS_EQUAL "'<='" GREATER_EQUAL "'>='" NOT_EQUAL "'!='"
 
-/* Statements and their words. Words that are used alike share a token. */
-%token <name> CAMERA "'camera'" LIGHT_SOURCE "'light_source'"
-%token <name> BACKGROUND "'background'" GLOBAL_SETTINGS "'global_settings'"
-%token <name> SHAPE "shape" CYLINDER "'cylinder'"
-%token <name> MESH "'mesh'" MESH2 "'mesh2'" UNION "'union'"
-%token <name> OBJECT "'object'" MESH_LIST "list of a mesh2"
-%token <name> TEXTURE "'texture'" PIGMENT "'pigment'" FINISH "'finish'"
-%token <name> MATERIAL "'material'" INTERIOR "'interior'" MEDIA "'media'"
-%token <name> SCATTERING "'scattering'" DENSITY "'density'"
-%token <name> DENSITY_FILE "'density_file'" FIRE "'fire'"
-%token <name> FIRE_FIELD "'temperature' or 'amount'"
-%token <name> TRANSFORM "'transform'" MATRIX "'matrix'"
-%token <name> TRANSPORT "'transport'"
-%token <name> MOVE "transformation" INVERSE "'inverse'"
-%token <name> CAMERA_TYPE "camera type" CAMERA_ITEM "camera item"
-%token <name> UP "'up'" RADIUS "'radius'" UV_VECTORS "'uv_vectors'"
-%token <name> LIGHT_TYPE "'spotlight'" LIGHT_ITEM "light item"
-%token <name> LIGHT_SWITCH "'media_interaction'"
-%token <name> OBJECT_WORD "object modifier" OBJECT_SWITCH "'hollow'"
-%token <name> MESH_FILE "'ply' or 'obj'" INSIDE_VECTOR "'inside_vector'"
-%token <name> CHECKER "'checker'" QUICK_COLOR "'quick_color'"
-%token <name> FINISH_ITEM "finish item" METALLIC "'metallic'"
-%token <name> EMISSION "'emission'" ABSORPTION "'absorption'"
-%token <name> MEDIA_HINT "sampling hint" SAMPLES "'samples'"
-%token <name> SCATTERING_ITEM "scattering item"
-%token <name> FILE_FORMAT "format of a density file"
-%token <name> INTERPOLATE "'interpolate'" FIT "'fit'"
-%token <name> KELVIN "'kelvin'" FIRE_ITEM "fire item"
-%token <name> FIRE_CHOICE "'brightness', 'coupling' or 'preset'"
-%token <name> GLOBAL_ITEM "global setting"
-%token <name> GLOBAL_CHOICE "'integrator' or 'light_units'"
-%token <name> SURFACES "'surfaces'" CHOICE "choice"
-%token <name> ENVIRONMENT "'environment'" LATER "word to come"
+/* Every word of a statement: what it may hold, and where, is in the builder's
+ * tables. */
+%token <name> WORD "keyword" TEXTURE "'texture'"
 
 /* An operand ends only where no operator follows: LOW is below them all. */
 %precedence LOW
-%precedence '{'
+%precedence '{' TEXTURE
 %precedence RED GREEN BLUE FILTER TRANSMIT
 %left '+' '-'
 %left '*' '/'
 %precedence SIGN
+%precedence '('
 %precedence DOT
 
 %nterm <value> rvalue expr float full logic relation
@@ -152,12 +117,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %nterm <color> color_words color_head color_item
 %nterm <count> components arguments sizes items relop
 
-%nterm <value> node placed object shape member named light camera part
-%nterm <value> surface texture texture_item pigment finish material
-%nterm <value> material_item interior media density transform
-%nterm <name> camera_word light_word object_word list_word finish_word
-%nterm <name> media_word shape_word choice
-%nterm <file> density_file
+%nterm <value> operand node layers texture subject code
 
 %%
 
@@ -173,7 +133,7 @@ start:
         { expander_count(parser, $2); YYACCEPT; }
   | MODE_INDEX '[' float ']'
         { expander_result(parser, &$3); YYACCEPT; }
-  | default_open defaults '}'
+  | default_open contents '}'
         { build_close(parser, @3); YYACCEPT; }
   ;
 
@@ -184,7 +144,7 @@ value_open:
 
 default_open:
     MODE_DEFAULT '{'
-        { build_open(parser, "#default", @1); }
+        { build_open_default(parser, @1); }
   ;
 
 /* ---- values ------------------------------------------------------------ */
@@ -197,6 +157,11 @@ rvalue:
   | ARRAY_ID
         { $$ = eval_array_copy(parser, &$1); }
   | node
+  | layers %prec LOW
+  | code
+  | NODE_ID
+  | FUNCTION_ID %prec LOW
+  | SPLINE_ID %prec LOW
   ;
 
 /* Where a float is wanted. */
@@ -233,9 +198,9 @@ expr:
   | '+' expr %prec SIGN
         { $$ = $2; }
   | '-' expr %prec SIGN
-        { $$ = value_negate($2); }
+        { $$ = eval_negate(parser, &$2, @1); }
   | '!' expr %prec SIGN
-        { $$ = value_not($2); }
+        { $$ = eval_not(parser, &$2, @1); }
   | color_words %prec LOW
         { $$ = eval_color(&$1); }
   ;
@@ -287,10 +252,42 @@ relop:
 function:
     NUMBER_FUNCTION '(' arguments ')'
         { $$ = eval_call(parser, $1, $3, @1); }
+  | FUNCTION_ID '(' arguments ')'
+        { $$ = formula_call(parser, &$1, $3, @1); }
+  | SPLINE_ID '(' arguments ')'
+        { $$ = build_spline_value(parser, &$1, $3, NULL, @1); }
+  | SPLINE_ID '(' arguments comma WORD ')'
+        { $$ = build_spline_value(parser, &$1, $3, $5, @1); }
+  | SERIES '(' want_name IDENTIFIER comma operand comma operand comma
+    series_open full ')'
+        { $$ = formula_series_close(parser, $1, &$6, &$8, &$11, @1); }
+  | OBJECT_FUNCTION '(' subject ')'
+        { $$ = build_object_value(parser, $1, &$3, NULL, @1); }
+  | OBJECT_FUNCTION '(' subject comma operand ')'
+        { $$ = build_object_value(parser, $1, &$3, &$5, @1); }
+  | TRACE '(' subject comma operand comma operand ')'
+        { $$ = build_trace(parser, &$3, &$5, &$7, NULL, @1); }
+  | TRACE '(' subject comma operand comma operand ',' want_name IDENTIFIER ')'
+        { $$ = build_trace(parser, &$3, &$5, &$7, $10, @1); }
   | DIMENSIONS '(' ARRAY_ID ')'
         { $$ = value_float($3.array->rank); }
   | DIMENSION_SIZE '(' ARRAY_ID comma float ')'
         { $$ = eval_dimension_size(parser, &$3, &$5, @5); }
+  ;
+
+operand:
+    expr %prec LOW
+  ;
+
+subject:
+    NODE_ID
+  | node
+  ;
+
+/* The variable of a sum is a name of a formula while its term is read. */
+series_open:
+    %empty
+        { formula_series_open(parser, $<name>-5); }
   ;
 
 arguments:
@@ -327,7 +324,7 @@ color_head:
   | RGB expr %prec LOW
         { $$ = eval_color_rgb(parser, $1, &$2, @2); }
   | COLOR expr %prec LOW
-        { $$ = eval_color_all(&$2); }
+        { $$ = eval_color_all(parser, &$2, @2); }
   ;
 
 color_item:
@@ -383,367 +380,134 @@ item:
         { eval_push(parser, &$1); }
   ;
 
+/* ---- functions: while the body of one is read, its parameters are names of
+ * formulas, so that the rules above make a formula of it ------------------ */
+
+code:
+    FUNCTION body_open body '}'
+        { $$ = formula_close(parser); }
+  | FUNCTION parameters body_open body '}'
+        { $$ = formula_close(parser); }
+  | FUNCTION grid body_open body '}'
+        { $$ = formula_close(parser); }
+  ;
+
+parameters:
+    '(' want_name names ')'
+        { formula_parameters(parser); }
+  ;
+
+want_name:
+    %empty
+        { expander_want_name(parser, true); }
+  ;
+
+names:
+    IDENTIFIER
+        { formula_parameter(parser, $1); }
+  | names comma IDENTIFIER
+        { formula_parameter(parser, $3); }
+  ;
+
+/* Columns and rows of a height field. */
+grid:
+    grid_size comma grid_size
+        { formula_grid(parser, @1); }
+  ;
+
+grid_size:
+    NUMBER
+        { eval_push(parser, &$1); }
+  | FLOAT_ID
+        { eval_push(parser, &$1); }
+  ;
+
+body_open:
+    '{'
+        { formula_open(parser); }
+  ;
+
+body:
+    full
+        { formula_body(parser, &$1, @1); }
+  | INTERNAL '(' float ')'
+        { formula_internal(parser, &$3, @1); }
+  | WORD inner_open contents '}'
+        { formula_statement(parser, @4); }
+  ;
+
+/* Inside of `function { pigment { ... } }` x is a vector again. */
+inner_open:
+    '{'
+        { formula_suspend(parser); build_open(parser, $<name>0, @0); }
+  ;
+
 /* ---- statements: opened, filled and closed in the builder -------------- */
 
 scene:
     %empty
-  | scene placed                    { build_place(parser, &$2, @2); }
-  | scene BACKGROUND open numbers '}' { build_close(parser, @5); }
-  | scene BACKGROUND open LATER
-        { build_later(parser, $4, @4); }
-  | scene GLOBAL_SETTINGS open global_items '}' { build_close(parser, @5); }
+  | scene node
+        { build_place(parser, &$2, @2); }
+  | scene NODE_ID
+        { build_place(parser, &$2, @2); }
+  | scene ';'
   ;
 
-placed:
-    object | light | camera | media
-  ;
-
-/* Values that can be declared, besides numbers, strings and arrays. */
 node:
-    placed | part | density | transform
-  | OBJECT_ID | LIGHT_ID | CAMERA_ID | TEXTURE_ID | PIGMENT_ID | FINISH_ID
-  | MATERIAL_ID | INTERIOR_ID | MEDIA_ID | DENSITY_ID | TRANSFORM_ID
+    WORD open contents '}'
+        { $$ = build_close(parser, @4); }
   ;
 
 /* The braces of a statement, of which the keyword stands before them. */
 open:
-    '{'                             { build_open(parser, $<name>0->text, @0); }
-  ;
-
-/* Numbers that stand before the modifiers of a statement. */
-numbers:
-    number
-  | numbers ',' number
-  | numbers number
-  ;
-
-number:
-    expr %prec LOW                  { build_argument(parser, &$1, @1); }
-  ;
-
-/* ---- transformations --------------------------------------------------- */
-
-transformation:
-    MOVE expr %prec LOW             { build_move(parser, $1->text, &$2, @2); }
-  | MATRIX '<' components '>'
-        { build_matrix(parser, eval_pop(parser, $3), $3, @1); }
-  | TRANSFORM TRANSFORM_ID          { build_apply(parser, &$2, @2); }
-  | transform                       { build_apply(parser, &$1, @1); }
-  ;
-
-transform:
-    TRANSFORM open transform_items '}' { $$ = build_close(parser, @4); }
-  ;
-
-transform_items:
-    %empty
-  | transform_items transformation
-  | transform_items TRANSFORM_ID    { build_apply(parser, &$2, @2); }
-  | transform_items INVERSE         { build_word(parser, $2, @2); }
-  ;
-
-/* ---- camera and lights ------------------------------------------------- */
-
-camera:
-    CAMERA open camera_items '}'    { $$ = build_close(parser, @4); }
-  ;
-
-camera_items:
-    %empty
-  | camera_items transformation
-  | camera_items CAMERA_ID          { build_apply(parser, &$2, @2); }
-  | camera_items CAMERA_TYPE        { build_word(parser, $2, @2); }
-  | camera_items CYLINDER           { build_later(parser, $2, @2); }
-  | camera_items camera_word expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  ;
-
-camera_word:
-    CAMERA_ITEM | UP
-  ;
-
-light:
-    LIGHT_SOURCE open light_start light_items '}'
-        { $$ = build_close(parser, @5); }
-  ;
-
-light_start:
-    numbers
-  | LIGHT_ID                        { build_apply(parser, &$1, @1); }
-  ;
-
-light_items:
-    %empty
-  | light_items transformation
-  | light_items LIGHT_TYPE          { build_word(parser, $2, @2); }
-  | light_items CYLINDER            { build_later(parser, $2, @2); }
-  | light_items light_word expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  | light_items LIGHT_SWITCH        { build_word(parser, $2, @2); }
-  | light_items LIGHT_SWITCH expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  ;
-
-light_word:
-    LIGHT_ITEM | RADIUS
-  ;
-
-/* ---- objects ----------------------------------------------------------- */
-
-object:
-    shape
-  | MESH open mesh_items '}'        { $$ = build_close(parser, @4); }
-  | MESH2 open mesh2_items '}'      { $$ = build_close(parser, @4); }
-  | UNION open union_items '}'      { $$ = build_close(parser, @4); }
-  | OBJECT open object_items '}'    { $$ = build_close(parser, @4); }
-  ;
-
-shape:
-    shape_word open numbers modifiers '}'
-        { $$ = build_close(parser, @5); }
-  ;
-
-shape_word:
-    SHAPE | CYLINDER
-  ;
-
-modifiers:
-    %empty
-  | modifiers modifier
-  ;
-
-modifier:
-    part                            { build_apply(parser, &$1, @1); }
-  | object_word                     { build_word(parser, $1, @1); }
-  | OBJECT_SWITCH                   { build_word(parser, $1, @1); }
-  | OBJECT_SWITCH expr %prec LOW    { build_set(parser, $1, @1, &$2, 1, @2); }
-  | INSIDE_VECTOR expr %prec LOW    { build_set(parser, $1, @1, &$2, 1, @2); }
-  | UV_VECTORS components
-        { build_uv_vectors(parser, eval_pop(parser, $2), $2, @1); }
-  | transformation
-  ;
-
-object_word:
-    OBJECT_WORD | INVERSE
-  ;
-
-part:
-    texture | pigment | finish | material | interior
-  ;
-
-mesh_items:
-    %empty
-  | mesh_items modifier
-  | mesh_items shape                { build_apply(parser, &$2, @2); }
-  | mesh_items MESH_FILE string
-        { build_mesh_file(parser, $2->text, $3.string, @3); }
-  ;
-
-mesh2_items:
-    %empty
-  | mesh2_items modifier
-  | mesh2_items list_word open numbers '}' { build_close(parser, @5); }
-  | mesh2_items list_word open numbers ',' '}' { build_close(parser, @6); }
-  ;
-
-list_word:
-    MESH_LIST | UV_VECTORS
-  ;
-
-union_items:
-    %empty
-  | union_items modifier
-  | union_items member              { build_apply(parser, &$2, @2); }
-  ;
-
-object_items:
-    %empty
-  | object_items modifier
-  | object_items named              { build_apply(parser, &$2, @2); }
-  ;
-
-member:
-    object | light
-  ;
-
-named:
-    member | OBJECT_ID | LIGHT_ID
-  ;
-
-/* ---- surfaces ---------------------------------------------------------- */
-
-surface:
-    texture | pigment | finish
-  ;
-
-defaults:
-    %empty
-  | defaults surface                { build_apply(parser, &$2, @2); }
+    '{'
+        { build_open(parser, $<name>0, @0); }
   ;
 
 texture:
-    TEXTURE open texture_items '}'  { $$ = build_close(parser, @4); }
+    TEXTURE open contents '}'
+        { $$ = build_close(parser, @4); }
   ;
 
-texture_items:
+/* Textures in a row are layers of one. */
+layers:
+    texture
+  | layers texture
+        { $$ = build_layer(parser, &$1, &$2, @2); }
+  ;
+
+/* What stands in a statement, one thing after the other: a word, to which the
+ * numbers and strings after it go as far as its row in the tables takes them;
+ * values; entries of maps. A comma may stand behind each. */
+contents:
     %empty
-  | texture_items transformation
-  | texture_items texture_item      { build_apply(parser, &$2, @2); }
+  | contents content comma
   ;
 
-texture_item:
-    TEXTURE_ID | PIGMENT_ID | FINISH_ID | pigment | finish
+content:
+    expr %prec LOW
+        { build_argument(parser, &$1, @1); }
+  | string
+        { build_argument(parser, &$1, @1); }
+  | WORD
+        { build_word(parser, $1, @1); }
+  | node
+        { build_apply(parser, &$1, @1); }
+  | texture
+        { build_apply(parser, &$1, @1); }
+  | code
+        { build_apply(parser, &$1, @1); }
+  | NODE_ID
+        { build_apply(parser, &$1, @1); }
+  | SPLINE_ID %prec LOW
+        { build_apply(parser, &$1, @1); }
+  | entry_open contents ']'
+        { build_close_entry(parser, @3); }
   ;
 
-pigment:
-    PIGMENT open pigment_items '}'  { $$ = build_close(parser, @4); }
-  ;
-
-pigment_items:
-    %empty
-  | pigment_items transformation
-  | pigment_items colors
-  | pigment_items density_file %prec LOW
-        { build_density_file(parser, &$2); }
-  | pigment_items PIGMENT_ID        { build_apply(parser, &$2, @2); }
-  | pigment_items CHECKER           { build_word(parser, $2, @2); }
-  | pigment_items QUICK_COLOR expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  ;
-
-colors:
-    number
-  | colors ',' number
-  ;
-
-finish:
-    FINISH open finish_items '}'    { $$ = build_close(parser, @4); }
-  ;
-
-finish_items:
-    %empty
-  | finish_items FINISH_ID          { build_apply(parser, &$2, @2); }
-  | finish_items finish_word expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  | finish_items METALLIC           { build_word(parser, $2, @2); }
-  | finish_items METALLIC expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  ;
-
-finish_word:
-    FINISH_ITEM | EMISSION
-  ;
-
-material:
-    MATERIAL open material_items '}' { $$ = build_close(parser, @4); }
-  ;
-
-material_items:
-    %empty
-  | material_items transformation
-  | material_items material_item    { build_apply(parser, &$2, @2); }
-  ;
-
-material_item:
-    MATERIAL_ID | texture | interior
-  ;
-
-/* ---- interior and media ------------------------------------------------ */
-
-interior:
-    INTERIOR open interior_items '}' { $$ = build_close(parser, @4); }
-  ;
-
-interior_items:
-    %empty
-  | interior_items INTERIOR_ID      { build_apply(parser, &$2, @2); }
-  | interior_items media            { build_apply(parser, &$2, @2); }
-  ;
-
-media:
-    MEDIA open media_items '}'      { $$ = build_close(parser, @4); }
-  ;
-
-media_items:
-    %empty
-  | media_items transformation
-  | media_items MEDIA_ID            { build_apply(parser, &$2, @2); }
-  | media_items media_word expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  | media_items SAMPLES components
-        { build_set(parser, $2, @2, eval_pop(parser, $3), $3, @3); }
-  | media_items SCATTERING open numbers scattering_items '}'
-        { build_close(parser, @6); }
-  | media_items density             { build_apply(parser, &$2, @2); }
-  | media_items FIRE open fire_items '}' { build_close(parser, @5); }
-  ;
-
-media_word:
-    ABSORPTION | EMISSION | MEDIA_HINT
-  ;
-
-scattering_items:
-    %empty
-  | scattering_items SCATTERING_ITEM expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  ;
-
-density:
-    DENSITY open density_items '}'  { $$ = build_close(parser, @4); }
-  ;
-
-density_items:
-    %empty
-  | density_items transformation
-  | density_items number
-  | density_items DENSITY_ID        { build_apply(parser, &$2, @2); }
-  | density_items density_file %prec LOW { build_density_file(parser, &$2); }
-  ;
-
-density_file:
-    DENSITY_FILE FILE_FORMAT string
-        { $$ = build_file_named($2->text, $3.string, @3); }
-  | density_file string             { $$ = $1; $$.grid = $2.string; }
-  | density_file INTERPOLATE expr %prec LOW
-        { $$ = $1; build_file_interpolate(parser, &$$, &$3, @3); }
-  | density_file FIT                { $$ = $1; $$.fit = true; }
-  | density_file UP expr %prec LOW
-        { $$ = $1; build_file_up(parser, &$$, &$3, @3); }
-  ;
-
-fire_items:
-    %empty
-  | fire_items transformation
-  | fire_items FIRE_FIELD open density_items '}' { build_close(parser, @5); }
-  | fire_items KELVIN components
-        { build_set(parser, $2, @2, eval_pop(parser, $3), $3, @3); }
-  | fire_items FIRE_ITEM expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  | fire_items FIRE_CHOICE choice   { build_choose(parser, $2, $3, @3); }
-  ;
-
-choice:
-    CHOICE | ABSORPTION
-  ;
-
-/* ---- global_settings --------------------------------------------------- */
-
-global_items:
-    %empty
-  | global_items GLOBAL_ITEM expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
-  | global_items GLOBAL_CHOICE choice
-        { build_choose(parser, $2, $3, @3); }
-  | global_items LATER              { build_later(parser, $2, @2); }
-  | global_items TRANSPORT open transport_items '}' { build_close(parser, @5); }
-  ;
-
-transport_items:
-    %empty
-  | transport_items MEDIA choice { build_choose(parser, $2, $3, @3); }
-  | transport_items SURFACES choice { build_choose(parser, $2, $3, @3); }
-  | transport_items ENVIRONMENT expr %prec LOW
-        { build_set(parser, $2, @2, &$3, 1, @3); }
+entry_open:
+    '['
+        { build_open_entry(parser, @1); }
   ;
 
 %%

@@ -97,7 +97,7 @@ static void find_fit(const struct grid *grid, struct loaded_grid *out)
 
 /* ---- grids ------------------------------------------------------------- */
 
-static void warn_of_bad(struct parser *parser, const struct build_file *file,
+static void warn_of_bad(struct parser *parser, const struct data_file *file,
                         const struct grid *grid)
 {
     if (grid->bad_nan || grid->bad_inf || grid->bad_negative)
@@ -108,13 +108,13 @@ static void warn_of_bad(struct parser *parser, const struct build_file *file,
                     grid->bad_negative);
 }
 
-static bool is_vdb(const struct build_file *file)
+static bool is_vdb(const struct data_file *file)
 {
     return !strcmp(file->format, "vdb");
 }
 
 /* Which grid of the file is meant: the named one, or the one for the role. */
-static bool choose_grid(struct parser *parser, const struct build_file *file,
+static bool choose_grid(struct parser *parser, const struct data_file *file,
                         const char *path, enum vdb_role role, char name[64])
 {
     struct brume_error err = {0};
@@ -140,7 +140,7 @@ static bool choose_grid(struct parser *parser, const struct build_file *file,
     return entry || parser_relay(parser, file->at, &err);
 }
 
-static bool choose_filter(struct parser *parser, const struct build_file *file,
+static bool choose_filter(struct parser *parser, const struct data_file *file,
                           enum grid_filter *filter)
 {
     int interpolate = file->interpolate;
@@ -168,7 +168,7 @@ static struct loaded_grid *find_grid(struct parser *parser, const char *path,
     return known;
 }
 
-static bool send_grid(struct parser *parser, const struct build_file *file,
+static bool send_grid(struct parser *parser, const struct data_file *file,
                       struct grid *grid, struct loaded_grid *out)
 {
     struct brume_error err = {0};
@@ -181,7 +181,7 @@ static bool send_grid(struct parser *parser, const struct build_file *file,
 }
 
 static struct loaded_grid *load_grid(struct parser *parser,
-                                     const struct build_file *file,
+                                     const struct data_file *file,
                                      const char *path, const char *name,
                                      enum grid_filter filter)
 {
@@ -213,7 +213,7 @@ static struct loaded_grid *load_grid(struct parser *parser,
 static const transform swap_y_and_z = {
     {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}}};
 
-static void place_grid(struct parser *parser, const struct build_file *file,
+static void place_grid(struct parser *parser, const struct data_file *file,
                        const struct loaded_grid *grid, struct density *out)
 {
     out->has_grid = true;
@@ -228,7 +228,7 @@ static void place_grid(struct parser *parser, const struct build_file *file,
                     grid->name, file->name.text);
 }
 
-bool load_density(struct parser *parser, const struct build_file *file,
+bool load_density(struct parser *parser, const struct data_file *file,
                   enum vdb_role role, struct density *out)
 {
     enum grid_filter filter;
@@ -259,9 +259,8 @@ bool load_density(struct parser *parser, const struct build_file *file,
 
 /* ---- meshes ------------------------------------------------------------ */
 
-static struct model_mesh *read_mesh(struct parser *parser,
-                                    const struct build_file *file,
-                                    const char *path)
+static struct model_mesh *
+read_mesh(struct parser *parser, const struct data_file *file, const char *path)
 {
     struct model_mesh *out = parser_alloc(parser, sizeof *out);
     struct brume_error err = {0};
@@ -281,7 +280,7 @@ static struct model_mesh *read_mesh(struct parser *parser,
 }
 
 struct model_mesh *load_mesh(struct parser *parser,
-                             const struct build_file *file)
+                             const struct data_file *file)
 {
     struct loaded_mesh *known = parser->builder->loader.meshes;
     const char *path = parser_find_file(parser, file->at, file->name,

@@ -12,6 +12,17 @@
 struct loaded_grid;
 struct loaded_mesh;
 
+/* A file as the scene names it: `vdb "file" "grid" interpolate N fit up z`. */
+struct data_file {
+    const char *format;         /* the word: df3, vdb; ply, obj            */
+    struct string name, grid;   /* grid.text NULL: none named              */
+    struct location at;         /* of the file's name                      */
+    int interpolate;            /* -1: the format's default                */
+    bool fit, up_z;
+};
+struct data_file data_file(const char *format, struct string name,
+                           struct location at);
+
 struct loader {
     struct loaded_grid *grids;
     struct loaded_mesh *meshes;
@@ -19,9 +30,9 @@ struct loader {
 
 /* Fills the grid of `out` and the map from the grid's own world to that of
  * the density. The role picks the grid where the scene names none. */
-bool load_density(struct parser *parser, const struct build_file *file,
+bool load_density(struct parser *parser, const struct data_file *file,
                   enum vdb_role role, struct density *out);
 struct model_mesh *load_mesh(struct parser *parser,
-                             const struct build_file *file);
+                             const struct data_file *file);
 
 #endif

@@ -11,6 +11,40 @@ const struct param *param_find(const struct param *table, const char *word)
     return NULL;
 }
 
+int param_least(const struct param *row)
+{
+    switch (row->kind) {
+    case PARAM_FLOAT:
+    case PARAM_INTEGER:
+    case PARAM_VECTOR:
+    case PARAM_RGB:
+    case PARAM_COLOR:
+    case PARAM_PAIR:
+        return isnan(row->alone) ? 1 : 0;
+    case PARAM_VALUES:
+        return row->least;
+    default:
+        return 0;
+    }
+}
+
+int param_most(const struct param *row)
+{
+    switch (row->kind) {
+    case PARAM_MARK:
+    case PARAM_CLEAR:
+    case PARAM_CHOICE:
+        return 0;
+    case PARAM_PAIR:
+        return 2;
+    case PARAM_VALUES:
+    case PARAM_IGNORED:
+        return row->most;
+    default:
+        return 1;
+    }
+}
+
 void param_defaults(const struct param *table, void *node)
 {
     for (; table->word; table++) {
@@ -36,6 +70,7 @@ void param_defaults(const struct param *table, void *node)
         case PARAM_COLOR:
         case PARAM_MARK:
         case PARAM_CLEAR:
+        case PARAM_VALUES:
         case PARAM_IGNORED:
             break;
         }
@@ -63,16 +98,16 @@ static bool out_of_range(struct parser *parser, const struct param *row,
     const char *to = row->open & PARAM_BELOW ? "less than" : "at most";
 
     if (!isfinite(x))
-        return parser_error(parser, at, "'%s' is %g, must be finite", row->word,
-                            x);
+        return parser_mistake(parser, at, "'%s' is %g, must be finite",
+                              row->word, x);
     if (isinf(row->high))
-        return parser_error(parser, at, "'%s' is %g, must be %s %g", row->word,
-                            x, from, row->low);
+        return parser_mistake(parser, at, "'%s' is %g, must be %s %g",
+                              row->word, x, from, row->low);
     if (isinf(row->low))
-        return parser_error(parser, at, "'%s' is %g, must be %s %g", row->word,
-                            x, to, row->high);
-    return parser_error(parser, at, "'%s' is %g, must be %s %g and %s %g",
-                        row->word, x, from, row->low, to, row->high);
+        return parser_mistake(parser, at, "'%s' is %g, must be %s %g",
+                              row->word, x, to, row->high);
+    return parser_mistake(parser, at, "'%s' is %g, must be %s %g and %s %g",
+                          row->word, x, from, row->low, to, row->high);
 }
 
 static bool in_range(const struct param *row, double x)

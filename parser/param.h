@@ -17,8 +17,13 @@ enum param_kind {
     PARAM_MARK,         /* int: set to `alone`, takes no number            */
     PARAM_CLEAR,        /* bool: set to false, takes no number             */
     PARAM_CHOICE,       /* int: one of the words of `choice`               */
-    PARAM_IGNORED       /* numbers without effect on the picture           */
+    PARAM_VALUES,       /* least..most numbers and strings, which the
+                           statement's `values` takes                      */
+    PARAM_IGNORED       /* up to `most` numbers without effect             */
 };
+
+/* The most numbers and strings that a word takes. */
+enum { PARAM_MOST = 8 };
 
 /* The bounds themselves are allowed unless `open` says otherwise. */
 enum { PARAM_ABOVE = 1, PARAM_BELOW = 2 };
@@ -35,6 +40,8 @@ struct param {
                                number must follow                          */
     const char *const *choice;      /* ends with NULL; values from 0       */
     const char *note;       /* why the word has no effect; or NULL         */
+    int least, most;        /* of PARAM_VALUES and PARAM_IGNORED           */
+    int id;                 /* what a statement knows the row by           */
 };
 
 /* A row with a number; `start_` is the default of each term. */
@@ -54,10 +61,19 @@ struct param {
     {.word = word_, .kind = kind_, .offset = offsetof(type, member),          \
      .given = given_, .alone = alone_}
 #define PARAM_WITHOUT(word_, note_)                                           \
-    {.word = word_, .kind = PARAM_IGNORED, .alone = NAN, .note = note_}
+    {.word = word_, .kind = PARAM_IGNORED, .alone = NAN, .note = note_,       \
+     .most = 2}
+/* A row whose numbers and strings the statement itself understands. */
+#define PARAM_OWN(word_, least_, most_, id_)                                  \
+    {.word = word_, .kind = PARAM_VALUES, .alone = NAN, .least = least_,      \
+     .most = most_, .id = id_}
 
 /* Rows are sought in a table that ends with a row without word. */
 const struct param *param_find(const struct param *table, const char *word);
+
+/* How many numbers and strings may follow the row's word. */
+int param_least(const struct param *row);
+int param_most(const struct param *row);
 
 /* Sets every parameter of the node to its default. */
 void param_defaults(const struct param *table, void *node);

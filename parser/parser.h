@@ -17,6 +17,7 @@ struct source;
 struct expander;
 struct macro;
 struct builder;
+struct formula_scope;
 
 struct parser {
     const struct parse_input *in;
@@ -36,7 +37,10 @@ struct parser {
     size_t randoms, random_room;
     double version;                 /* of #version                         */
     struct builder *builder;
-    bool failed;                    /* an error was reported: stop         */
+    struct formula_scope *formula;  /* of the innermost function being read */
+    bool failed;                    /* an error was reported: stop, or go on
+                                       with the next statement             */
+    bool fatal;                     /* and nothing can come after it       */
     struct location warned[64];     /* offset + 1, by offset               */
 };
 
@@ -45,6 +49,10 @@ struct parser {
  * the current action, which need not undo anything. Always false. */
 bool parser_error(struct parser *parser, struct location at,
                   const char *format, ...) BRUME_PRINTF(3, 4);
+/* An error that leaves the rest of its statement sound: where every error is
+ * wanted, the statement is read on. Always false. */
+bool parser_mistake(struct parser *parser, struct location at,
+                    const char *format, ...) BRUME_PRINTF(3, 4);
 /* As above with a code other than BRUME_ERR_SCENE and a hint (or NULL). */
 bool parser_fail(struct parser *parser, enum brume_code code,
                  struct location at, const char *hint, const char *format,

@@ -93,6 +93,17 @@ bool parser_error(struct parser *parser, struct location at, const char *format,
     return fail(parser, BRUME_ERR_SCENE, at, NULL, text);
 }
 
+bool parser_mistake(struct parser *parser, struct location at,
+                    const char *format, ...)
+{
+    char text[TEXT];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return fail(parser, BRUME_ERR_SCENE, at, NULL, text);
+}
+
 bool parser_fail(struct parser *parser, enum brume_code code,
                  struct location at, const char *hint, const char *format, ...)
 {
@@ -250,6 +261,8 @@ static bool begins_value(int kind)
         TOK_NUMBER, TOK_STRING, TOK_FLOAT_ID, TOK_VECTOR_ID, TOK_COLOR_ID,
         TOK_STRING_ID, TOK_NUMBER_FUNCTION, TOK_STRING_FUNCTION,
         TOK_DIMENSIONS, TOK_DIMENSION_SIZE, TOK_ARRAY, TOK_ARRAY_ID,
+        TOK_OBJECT_FUNCTION, TOK_TRACE, TOK_SERIES, TOK_FUNCTION_ID,
+        TOK_SPLINE_ID,
         TOK_COLOR, TOK_RED, TOK_GREEN, TOK_BLUE, TOK_FILTER, TOK_TRANSMIT,
         TOK_RGB, '(', '<', '+', '-', '!'
     };
@@ -276,6 +289,10 @@ static void write_expected(char *text, size_t room, const int *expected,
     const char *name[NAMED + 1];
     int names = 0;
     bool number = contains(expected, count, TOK_NUMBER);
+    *text = 0;
+    if (contains(expected, count, TOK_WORD)) {
+        return;
+    }
     bool string = contains(expected, count, TOK_STRING);
     if (number || string) {
         name[names++] = number ? "a number" : "a string";
@@ -288,7 +305,6 @@ static void write_expected(char *text, size_t room, const int *expected,
         }
     }
     size_t used = 0;
-    *text = 0;
     for (int i = 0; i < names && names <= NAMED && used < room; i++) {
         used += (size_t)snprintf(text + used, room - used, "%s%s",
                                  i == 0          ? ""
@@ -312,22 +328,10 @@ static void write_found(struct parser *parser, char *text, size_t room,
     }
 }
 
-/* Tokens that, inside of a statement that has no room for them, tell that its
- * end is missing. */
-static bool begins_another(int kind)
+int report_line(const struct parser *parser, struct location at)
 {
-    static const int kinds[] = {TOK_END,
-                                TOK_CAMERA,
-                                TOK_LIGHT_SOURCE,
-                                TOK_BACKGROUND,
-                                TOK_GLOBAL_SETTINGS,
-                                TOK_SHAPE,
-                                TOK_CYLINDER,
-                                TOK_MESH,
-                                TOK_MESH2,
-                                TOK_UNION,
-                                TOK_OBJECT};
-    return contains(kinds, sizeof kinds / sizeof *kinds, kind);
+    const struct source *source = source_of(parser, at);
+    return source ? source_locate(source, at.offset).line : 0;
 }
 
 /* Asks for the '}' of the statement `word` that began at `began`. */
@@ -336,9 +340,8 @@ static void report_open(struct parser *parser, struct location at,
                         struct location began)
 {
     char hint[128];
-    int line = source_locate(source_of(parser, began), began.offset).line;
     snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d", word,
-             line);
+             report_line(parser, began));
     parser_fail(parser, BRUME_ERR_SCENE, at, hint, "%s has no place in '%s'",
                 got, word);
 }
@@ -351,7 +354,7 @@ void report_unexpected(struct parser *parser, struct location at, int found,
     const char *word = build_innermost(parser, &began);
     write_expected(wanted, sizeof wanted, expected, count);
     write_found(parser, got, sizeof got, at, found);
-    if (word && begins_another(found) && contains(expected, count, '}')) {
+    if (word && found == TOK_END) {
         report_open(parser, at, got, word, began);
     } else if (*wanted) {
         parser_error(parser, at, "expected %s, found %s", wanted, got);
@@ -380,6 +383,17 @@ void report_undeclared(struct parser *parser, struct location at,
     }
     parser_fail(parser, BRUME_ERR_SCENE, at, like ? hint : NULL,
                 "undeclared identifier '%s'", report_spelling(parser, at));
+}
+
+bool report_unknown(struct parser *parser, struct location at, const char *word,
+                    const char *in)
+{
+    if (!build_knows(word)) {
+        return parser_mistake(parser, at, "'%s' is not supported yet", word);
+    }
+    return in ? parser_mistake(parser, at, "'%s' has no place in '%s'", word,
+                               in)
+              : parser_error(parser, at, "'%s' has no place here", word);
 }
 
 static bool is_directive_word(const struct name *name)

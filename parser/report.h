@@ -16,6 +16,13 @@ void report_undeclared(struct parser *parser, struct location at,
 /* A token that is not one: TOK_BAD, TOK_UNSUPPORTED. */
 void report_bad(struct parser *parser, const struct token *token);
 
+/* A word that means nothing in the statement `in`, or, NULL, where none is
+ * open. Always false. */
+bool report_unknown(struct parser *parser, struct location at,
+                    const char *word, const char *in);
+/* The line of a place in its text. */
+int report_line(const struct parser *parser, struct location at);
+
 /* The grammar's stack cannot grow: `depth` was reached, or memory. */
 void report_exhausted(struct parser *parser, struct location at, int depth);
 /* An arena gave NULL. Always false. */

@@ -7,15 +7,36 @@
 static const double EPSILON = 1e-10;
 
 static const char *const kind_name[VALUE_KINDS] = {
-    [VALUE_NONE] = "nothing",        [VALUE_NUMBER] = "number",
-    [VALUE_STRING] = "string",       [VALUE_ARRAY] = "array",
-    [VALUE_MACRO] = "macro",         [VALUE_OBJECT] = "object",
-    [VALUE_TEXTURE] = "texture",     [VALUE_PIGMENT] = "pigment",
-    [VALUE_NORMAL] = "normal",       [VALUE_FINISH] = "finish",
-    [VALUE_COLOR_MAP] = "color_map", [VALUE_MATERIAL] = "material",
-    [VALUE_INTERIOR] = "interior",   [VALUE_MEDIA] = "media",
-    [VALUE_DENSITY] = "density",     [VALUE_TRANSFORM] = "transform",
-    [VALUE_CAMERA] = "camera",       [VALUE_LIGHT] = "light_source"};
+    [VALUE_NONE] = "nothing",
+    [VALUE_NUMBER] = "number",
+    [VALUE_STRING] = "string",
+    [VALUE_ARRAY] = "array",
+    [VALUE_MACRO] = "macro",
+    [VALUE_OBJECT] = "object",
+    [VALUE_TEXTURE] = "texture",
+    [VALUE_PIGMENT] = "pigment",
+    [VALUE_NORMAL] = "normal",
+    [VALUE_FINISH] = "finish",
+    [VALUE_COLOR_MAP] = "color_map",
+    [VALUE_MATERIAL] = "material",
+    [VALUE_INTERIOR] = "interior",
+    [VALUE_MEDIA] = "media",
+    [VALUE_DENSITY] = "density",
+    [VALUE_TRANSFORM] = "transform",
+    [VALUE_CAMERA] = "camera",
+    [VALUE_LIGHT] = "light_source",
+    [VALUE_LIST] = "long vector",
+    [VALUE_FORMULA] = "formula",
+    [VALUE_FUNCTION] = "function",
+    [VALUE_SPLINE] = "spline",
+    [VALUE_NORMAL_MAP] = "normal_map",
+    [VALUE_SLOPE_MAP] = "slope_map",
+    [VALUE_PIGMENT_MAP] = "pigment_map",
+    [VALUE_TEXTURE_MAP] = "texture_map",
+    [VALUE_DENSITY_MAP] = "density_map",
+    [VALUE_FOG] = "fog",
+    [VALUE_RAINBOW] = "rainbow",
+    [VALUE_SKY_SPHERE] = "sky_sphere"};
 
 const char *value_name(const struct value *value)
 {

@@ -16,17 +16,26 @@ enum value_kind {
     VALUE_STRING,
     VALUE_ARRAY,
     VALUE_MACRO,
+    VALUE_LIST,             /* `<...>` of more terms than a number has     */
+    VALUE_FORMULA,          /* of a function's parameters, not known yet   */
+    VALUE_FUNCTION,
     /* Made by the builder, which alone looks into `node`. */
     VALUE_OBJECT,
     VALUE_TEXTURE, VALUE_PIGMENT, VALUE_NORMAL, VALUE_FINISH,
     VALUE_COLOR_MAP,
     VALUE_MATERIAL, VALUE_INTERIOR, VALUE_MEDIA, VALUE_DENSITY,
     VALUE_TRANSFORM,
-    VALUE_CAMERA, VALUE_LIGHT,
+    VALUE_CAMERA, VALUE_LIGHT, VALUE_SPLINE,
+    VALUE_NORMAL_MAP, VALUE_SLOPE_MAP, VALUE_PIGMENT_MAP, VALUE_TEXTURE_MAP,
+    VALUE_DENSITY_MAP,
+    VALUE_FOG, VALUE_RAINBOW, VALUE_SKY_SPHERE,
     VALUE_KINDS
 };
 
 enum { VALUE_TERMS = 5, VALUE_RANK = 5 };
+
+struct list;
+struct formula;
 
 struct string {
     const char *text;       /* UTF-8, NUL behind it; may hold NULs         */
@@ -41,8 +50,15 @@ struct value {
         struct string string;
         struct array *array;
         struct macro *macro;
+        const struct list *list;
+        const struct formula *formula;
         void *node;
     };
+};
+
+struct list {
+    int count;
+    double term[];
 };
 
 struct array {

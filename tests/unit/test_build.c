@@ -111,14 +111,14 @@ static void shapes_that_are_wrong(void **state)
     expect_error("sphere { 0, 1, 2 }", BRUME_ERR_SCENE, 1, 16, "no more");
     expect_error("sphere { 0, x }", BRUME_ERR_SCENE, 1, 13, "a float");
     expect_error("sphere { 0, 1 open }", BRUME_ERR_SCENE, 1, 15,
-                 "'sphere' cannot have 'open'");
+                 "'open' has no place in 'sphere'");
     expect_error("union { sphere { 0, 1 } inverse }", BRUME_ERR_SCENE, 1, 25,
                  "not supported yet");
     expect_error("object { }", BRUME_ERR_SCENE, 1, 10, "needs an object");
-    expect_error("sphere { 0, 1 matrix <1, 2, 3> }", BRUME_ERR_SCENE, 1, 15,
+    expect_error("sphere { 0, 1 matrix <1, 2, 3> }", BRUME_ERR_SCENE, 1, 22,
                  "12 numbers");
     expect_error("sphere { 0, 1 matrix <1,0,0, 0,1,0, 0,0,0, 0,0,0> }",
-                 BRUME_ERR_SCENE, 1, 15, "no inverse");
+                 BRUME_ERR_SCENE, 1, 22, "no inverse");
     expect_warning("sphere { 0, 0 }", 1, 1, "radius 0");
     assert_int_equal(result.scene->shapes, 0);
     expect_warning("sphere { 0, 1 scale <1, 0, 1> }", 1, 21, "scale of y");

@@ -136,6 +136,8 @@ static void test_long_lists(void **state)
                                        ");");
     assert_int_equal(got.code, BRUME_OK);
     got = read_repeated("#declare A = <0", ", 1", 300000, ">;");
+    assert_int_equal(got.code, BRUME_OK);
+    got = read_repeated("#declare A = 1 + <0", ", 1", 300000, ">;");
     assert_int_equal(got.code, BRUME_ERR_SCENE);
     got = read_repeated("#declare A = 0", " + 1", 300000, ";");
     assert_int_equal(got.code, BRUME_OK);

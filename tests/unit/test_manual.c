@@ -1,5 +1,5 @@
-/* test_manual.c - man/brume.5 lists every word of the language: what has a
- * rule in the grammar, and the directives. Run from the root of the tree. */
+/* test_manual.c - man/brume.5 lists every word of the language that means
+ * something, and the directives. Run from the root of the tree. */
 #include <ctype.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "parser/build.h"
 #include "parser/grammar.h"
 #include "parser/token.h"
 
@@ -43,14 +44,25 @@ static bool is_listed(const char *word)
     return false;
 }
 
+static bool is_known(const struct keyword *keyword)
+{
+    switch (keyword->kind) {
+    case TOK_UNSUPPORTED:
+        return false;
+    case TOK_WORD:
+        return build_knows(keyword->word);
+    default:
+        return true;
+    }
+}
+
 static void every_keyword_is_in_the_manual(void **state)
 {
     int missing = 0;
     (void)state;
 
     for (int i = 0; i < keyword_count; i++)
-        if (keyword_table[i].kind != TOK_UNSUPPORTED &&
-            !is_listed(keyword_table[i].word)) {
+        if (is_known(&keyword_table[i]) && !is_listed(keyword_table[i].word)) {
             print_message("'%s' is not in man/brume.5\n",
                           keyword_table[i].word);
             missing++;
