@@ -104,3 +104,49 @@ bool solid_poly(struct arena *arena, int order, const double *coefficients,
     memcpy(solid->data + 1, coefficients, count * sizeof *coefficients);
     return true;
 }
+
+bool solid_superellipsoid(struct arena *arena, double e, double n,
+                          struct solid *solid, struct brume_error *err)
+{
+    /* Beyond, 2/e and its reciprocal are no finite numbers of use. */
+    const double least = 1e-6, most = 1e6;
+
+    if (!(e >= least && e <= most && n >= least && n <= most))
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "superellipsoid of exponents %g and %g; expected "
+                          "%g to %g",
+                          e, n, least, most);
+    if (!solid_alloc(arena, 2, solid, err))
+        return false;
+    solid->data[0] = 2 / e;
+    solid->data[1] = 2 / n;
+    solid_bounds(solid, -1, -1, -1, 1, 1, 1);
+    return true;
+}
+
+bool solid_ovus(struct arena *arena, double bottom, double top,
+                struct solid *solid, struct brume_error *err)
+{
+    if (!(bottom > 0) || !(top >= 0) || !isfinite(bottom + top))
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "ovus of radii %g and %g; expected a bottom radius "
+                          "above 0 and a top radius of 0 or more",
+                          bottom, top);
+    if (!solid_alloc(arena, 6, solid, err))
+        return false;
+    /* The arc touches both from outside: its middle is arc - bottom from the
+     * one and arc - top from the other. */
+    double arc = 2 * fmax(bottom, top), to_bottom = arc - bottom;
+    double to_top = arc - top;
+    double height = (bottom * bottom - to_top * to_top +
+                     to_bottom * to_bottom) /
+                    (2 * bottom);
+    double beyond = sqrt(fmax(to_bottom * to_bottom - height * height, 0));
+    bool ball = top >= 2 * bottom;
+    const double data[6] = {bottom, top, arc, beyond, height, ball};
+    double wide = ball ? top : arc - beyond;
+    memcpy(solid->data, data, sizeof data);
+    solid_bounds(solid, -wide, ball ? bottom - top : -bottom, -wide, wide,
+                 bottom + top, wide);
+    return true;
+}

@@ -42,4 +42,18 @@ int solid_poly_terms(int order);
 /* Where the coefficient of x^x y^y z^z is among them; x + y + z <= order. */
 int solid_poly_index(int order, int x, int y, int z);
 
+/* e > 0, n > 0. */
+bool solid_superellipsoid(struct arena *arena, double e, double n,
+                          struct solid *solid, struct brume_error *err);
+
+/* Radii of the bottom ball (above 0) and of the top one (0 or more). */
+bool solid_ovus(struct arena *arena, double bottom, double top,
+                struct solid *solid, struct brume_error *err);
+
+/* BRUME_BLOB_NUMBERS a component, as brume.h has them; threshold > 0. A
+ * component of strength 0 is left out. */
+bool solid_blob(struct arena *arena, double threshold,
+                const double *components, size_t count, struct solid *solid,
+                struct brume_error *err);
+
 #endif

@@ -8,11 +8,9 @@
  * the signs at the ends of the interval ask for. */
 #ifndef CORE_PHYSICS_POLYNOMIAL_H
 #define CORE_PHYSICS_POLYNOMIAL_H
-#include <math.h>
-#include "core/physics/hd.h"
+#include "core/physics/bracket.h"
 
 enum { POLYNOMIAL_MAX = 35 };           /* the greatest degree              */
-enum { POLYNOMIAL_STEPS = 200 };        /* of a refinement, never reached   */
 
 HD double polynomial_value(const double *c, int degree, double t)
 {
@@ -36,26 +34,16 @@ HD double polynomial_slope(const double *c, int degree, double t,
 }
 
 /* The root in [a, b], at whose ends the signs differ; `rising` if it is
- * positive at b. Newton's steps while they halve, else bisection. */
+ * positive at b. */
 HD double polynomial_bracketed(const double *c, int degree, double a,
                                double b, bool rising)
 {
-    double t = 0.5 * (a + b), before = b - a, least = 1e-17 * (b - a);
-    for (int i = 0; i < POLYNOMIAL_STEPS; i++) {
-        double slope, f = polynomial_slope(c, degree, t, &slope);
-        if ((f >= 0.0) == rising)
-            b = t;
-        else
-            a = t;
-        double next = t - f / slope;
-        if (!(next >= a && next <= b && fabs(next - t) < 0.5 * before))
-            next = 0.5 * (a + b);
-        before = fabs(next - t);
-        t = next;
-        if (!(before > least + 2e-16 * fabs(t)))
-            break;
-    }
-    return t;
+    bracket at = bracket_make(a, b, rising);
+    double slope = 0.0, f;
+    do
+        f = polynomial_slope(c, degree, at.t, &slope);
+    while (bracket_step(&at, f, slope));
+    return at.t;
 }
 
 /* Roots of a quadratic (c[2] may be 0) in [lo, hi], ascending; a touch
@@ -109,6 +97,28 @@ HD int polynomial_between(const double *c, int degree, double lo, double hi,
     return n;
 }
 
+/* The roots of degree 1 and 2 by the same rule: as the signs at the ends ask
+ * for, in [lo, hi]. */
+HD int polynomial_low(const double *c, int degree, double lo, double hi,
+                      double *t)
+{
+    bool first = polynomial_value(c, degree, lo) >= 0.0;
+    bool last = polynomial_value(c, degree, hi) >= 0.0;
+    bool outer = c[degree] >= 0.0;
+    double r[2];
+    r[0] = r[1] = degree == 1 ? -c[0] / c[1] : -0.5 * c[1] / c[2];
+    int n = degree == 1 ? 1 : polynomial_quadratic(c, -INFINITY, INFINITY, r);
+    if (first != last) {
+        t[0] = fmin(fmax(r[first == outer ? 0 : 1], lo), hi);
+        return 1;
+    }
+    if (n < 2 || first != outer || !(r[0] >= lo && r[1] <= hi))
+        return 0;
+    t[0] = r[0];
+    t[1] = r[1];
+    return 2;
+}
+
 /* All real roots in [lo, hi], ascending; t has room for as many as the degree.
  * Not finite coefficients or ends give none. */
 HD int polynomial_roots(const double *c, int degree, double lo, double hi,
@@ -121,16 +131,49 @@ HD int polynomial_roots(const double *c, int degree, double lo, double hi,
         sum += fabs(c[i]);
     if (!(sum < INFINITY) || !(lo < hi) || degree < 1)
         return 0;
-    if (degree == 1) {
-        t[0] = -c[0] / c[1];
-        return t[0] >= lo && t[0] <= hi;
-    }
+    if (degree <= 2)
+        return polynomial_low(c, degree, lo, hi, t);
     polynomial_derivative(c, degree, degree - 2, part);
     int n = polynomial_quadratic(part, lo, hi, t);
     for (int k = degree - 3; k >= 0; k--) {
         polynomial_derivative(c, degree, k, part);
         n = polynomial_between(part, degree - k, lo, hi, t, n);
     }
+    return n;
+}
+
+/* Roots in [0, 1] of one stretch of what goes on: `positive` is the sign that
+ * the stretch before ended with, and becomes the one that this ends with. Where
+ * rounding makes the stretches disagree, there is a root at 0. t has room for
+ * one more than the degree. */
+HD int polynomial_stretch(const double *c, int degree, bool *positive,
+                          double *t)
+{
+    int n = 0;
+    double rise = 0.0, fall = 0.0;
+    bool first = c[0] >= 0.0;
+    if (first != *positive)
+        t[n++] = 0.0;
+    for (int i = 1; i <= degree; i++) {
+        rise += fmax(c[i], 0.0);
+        fall += fmin(c[i], 0.0);
+    }
+    *positive = first;
+    if (first ? c[0] + fall >= 0.0 : c[0] + rise < 0.0)
+        return n;
+    int found = polynomial_roots(c, degree, 0.0, 1.0, t + n);
+    *positive = first != (found % 2 == 1);
+    return n + found;
+}
+
+/* The same where the sign at the other end is known too, from the stretch
+ * that goes on there; room for two more than the degree. */
+HD int polynomial_link(const double *c, int degree, bool first, bool last,
+                       double *t)
+{
+    int n = polynomial_stretch(c, degree, &first, t);
+    if (first != last)
+        t[n++] = 1.0;
     return n;
 }
 

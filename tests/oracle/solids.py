@@ -71,6 +71,58 @@ def quartic_torus(major, minor):
             (0, 0, 2): -2 * s, (0, 0, 0): k * k}
 
 
+def superellipsoid(n):
+    return f"superellipsoid {{ {vector(n)} }}"
+
+
+def ovus(n):
+    return f"ovus {{ {n[0]}, {n[1]} }}"
+
+
+IDENTITY = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)
+# Rows of A|b.
+MAPS = (IDENTITY,
+        (1, 0, 0, 0.2, 0, 0.5, 0, -0.1, 0, 0, 1.5, 0.3),
+        (0.6, -0.8, 0, 0, 0.8, 0.6, 0.3, 0.1, 0, 0.2, 0.9, 0))
+
+
+def matrix(rows):
+    """As the language has it: p' = p M, columns of the map."""
+    m = [rows[4 * i + j] for j in range(4) for i in range(3)]
+    return "matrix " + vector(m)
+
+
+def blob(n):
+    text = f"blob {{ threshold {n[0]} "
+    for i in range(1, len(n), 21):
+        kind, strength, radius, *rest = n[i:i + 21]
+        ends, rows = vectors(rest[:6], 3), rest[6:]
+        text += (f"cylinder {{ {ends[0]}, {ends[1]}," if kind else
+                 f"sphere {{ {ends[0]},")
+        text += f" {radius}, {strength} {matrix(rows)} }} "
+    return text + "sturm }"
+
+
+def ball(strength, radius, centre, rows=IDENTITY):
+    return (0, strength, radius, *centre, 0, 0, 0, *rows)
+
+
+def rod(strength, radius, base, end, rows=IDENTITY):
+    return (1, strength, radius, *base, *end, *rows)
+
+
+def many(count):
+    """Balls and rods of all kinds, here and there."""
+    random, numbers = Random(5), []
+    for i in range(count):
+        strength = round(random.uniform(-0.5, 1.5), 3)
+        radius = round(random.uniform(0.2, 0.7), 3)
+        numbers += (rod(strength, radius, random.point(1.5), random.point(1.5),
+                        MAPS[i // 3 % 3]) if i % 3 == 0 else
+                    ball(strength, radius, random.point(1.8), MAPS[i // 2 % 3]))
+    return numbers
+
+
 KINDS = {
     "torus": (torus, [
         (1, 0.25), (1, 1), (3, 2.5), (1, 0.01)], 1.4),
@@ -91,6 +143,20 @@ KINDS = {
                        (1, 1, 1): 3, (0, 0, 0): 0.1})),
         (6, *terms(6, {(6, 0, 0): 1, (0, 6, 0): 1, (0, 0, 6): 1,
                        (2, 2, 2): -3, (0, 0, 0): -1}))], 1.5),
+    "superellipsoid": (superellipsoid, [
+        (1, 1), (0.2, 0.3), (1, 0.1), (0.05, 1.7), (2, 2), (3, 3), (2.5, 0.5),
+        (0.5, 3)], 1.1),
+    "blob": (blob, [
+        (0.5, *ball(1, 1, (0.1, 0, 0.2))),
+        (0.6, *ball(1, 1, (0.75, 0, 0)), *ball(1, 1, (-0.375, 0.64952, 0)),
+         *ball(1, 1, (-0.375, -0.64952, 0))),
+        (0.4, *rod(1, 0.8, (-1, 0, 0.2), (1, 0.5, 0)),
+         *ball(-1, 0.7, (0, 0.6, 0.2))),
+        (0.5, *ball(1, 1.3, (0.2, 0, 0), MAPS[1]),
+         *rod(1.2, 0.7, (-1, -1, -0.4), (1, 1, 0.3), MAPS[2])),
+        (0.3, *many(40))], 1.5),
+    "ovus": (ovus, [
+        (1, 0.5), (1, 1), (1, 0), (1, 1.7), (1, 2.5), (0.8, 0.1)], 1.5),
 }
 
 
@@ -114,7 +180,7 @@ def probe(kind, text, numbers, size, seed):
     """The commands for one solid."""
     random = Random(seed)
     lines = [f"#declare S = {text(numbers)}",
-             f'#write(out, "solid {kind}{"".join(f" {n}" for n in numbers)}\\n")',
+             '#write(out, "solid\\n")',
              '#write(out, "bounds", V(min_extent(S)), V(max_extent(S)), "\\n")']
     for i in range(RAYS):
         origin = random.point(size * (3 if i % 4 else 1))
@@ -141,9 +207,11 @@ def measure(kind):
         done = subprocess.run(["povray", "scene.pov", "-D", "-F", "+W1", "+H1"],
                               cwd=folder, capture_output=True, text=True)
         if done.returncode:
-            sys.exit(done.stderr)
+            sys.exit(done.stderr[-500:])
         with open(os.path.join(folder, "out.txt")) as file:
-            return file.read()
+            said = file.read().split("solid\n")[1:]
+    return "".join(" ".join(map(str, ("solid", kind, *numbers))) + "\n" +
+                   shorter(text) for numbers, text in zip(sets, said))
 
 
 def scale(kind, numbers):
@@ -158,9 +226,10 @@ def shorter(text):
 
 def main():
     for kind in sys.argv[1:] or KINDS:
+        said = measure(kind)
         with open(os.path.join(FOLDER, kind + ".txt"), "w") as file:
-            file.write(f"# Made by tests/oracle/solids.py with POV-Ray 3.7.\n")
-            file.write(shorter(measure(kind)))
+            file.write("# Made by tests/oracle/solids.py with POV-Ray 3.7.\n")
+            file.write(said)
 
 
 if __name__ == "__main__":

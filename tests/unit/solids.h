@@ -2,8 +2,12 @@
  * numbers, and their functions. Read by the tests of core/solid.h. */
 #ifndef TESTS_SOLIDS_H
 #define TESTS_SOLIDS_H
+#include "core/brume.h"
+#include "core/physics/solid_blob.h"
+#include "core/physics/solid_ovus.h"
 #include "core/physics/solid_poly.h"
 #include "core/physics/solid_quadric.h"
+#include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 #include "core/solid.h"
 
@@ -41,6 +45,25 @@ SOLID_BUILD(poly)
     return solid_poly(arena, (int)n[0], n + 1, solid, err);
 }
 
+SOLID_BUILD(superellipsoid)
+{
+    (void)count;
+    return solid_superellipsoid(arena, n[0], n[1], solid, err);
+}
+
+SOLID_BUILD(ovus)
+{
+    (void)count;
+    return solid_ovus(arena, n[0], n[1], solid, err);
+}
+
+/* Threshold, then the components. */
+SOLID_BUILD(blob)
+{
+    return solid_blob(arena, n[0], n + 1, (count - 1) / BRUME_BLOB_NUMBERS,
+                      solid, err);
+}
+
 #define SOLID_KIND(name, tolerance)                                           \
     {#name, build_##name, name##_roots, name##_normal, name##_inside,         \
      tolerance}
@@ -48,6 +71,9 @@ static const struct solid_kind solid_kinds[] = {
     SOLID_KIND(torus, 1e-6),
     SOLID_KIND(quadric, 1e-6),
     SOLID_KIND(poly, 1e-6),
+    SOLID_KIND(superellipsoid, 1e-6),
+    SOLID_KIND(ovus, 1e-6),
+    SOLID_KIND(blob, 1e-5),
 };
 enum { SOLID_KINDS = sizeof solid_kinds / sizeof *solid_kinds };
 

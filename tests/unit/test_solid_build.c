@@ -19,6 +19,7 @@ struct refusal {
             text                                                               \
     }
 
+#define BALL 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0
 static const struct refusal refusals[] = {
     REFUSE("torus", "radii -1 and 1", -1, 1),
     REFUSE("torus", "radii 1 and 0", 1, 0),
@@ -29,6 +30,17 @@ static const struct refusal refusals[] = {
     REFUSE("poly", "order 1; expected 2 to 35", 1, 1, 1, 1, 1),
     REFUSE("poly", "order 36; expected 2 to 35", 36, 1, 1, 1, 1),
     REFUSE("poly", "no term of x, y or z", 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4),
+    REFUSE("superellipsoid", "exponents 0 and 1", 0, 1),
+    REFUSE("superellipsoid", "exponents 1 and -1", 1, -1),
+    REFUSE("superellipsoid", "exponents 1 and nan", 1, NAN),
+    REFUSE("ovus", "radii 0 and 1", 0, 1),
+    REFUSE("ovus", "radii 1 and -1", 1, -1),
+    REFUSE("blob", "threshold 0;", 0, 0, 1, 1, BALL),
+    REFUSE("blob", "0 components", 1),
+    REFUSE("blob", "radius 0;", 1, 0, 1, 0, BALL),
+    REFUSE("blob", "number 2 is inf", 1, 0, INFINITY, 1, BALL),
+    REFUSE("blob", "a transform makes flat", 1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 1, 0,
+           0, 0, 0, 1, 0, 0, 0, 0, 0, 0),
 };
 
 static const struct solid_kind *kind_named(const char *name)
