@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/check.h"
+#include "core/flat.h"
+#include "core/query.h"
 #include "core/scene.h"
 #include "core/shapes.h"
 #include "lib/memory.h"
@@ -31,6 +33,8 @@ void brume_scene_free(brume_scene *scene)
         grid_free(scene->grids[i]);
     for (size_t i = 0; i < scene->shapes_count; i++)
         shape_release(&scene->shapes[i]);
+    for (size_t i = 0; i < scene->queries_count; i++)
+        flat_free(scene->queries[i].flat);
     free((void *)scene->sky.radiance);
 #define X(type, name) free(scene->name);
     SCENE_LISTS(X)

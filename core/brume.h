@@ -162,6 +162,8 @@ enum brume_shape_kind {
     BRUME_SHAPE_POLY,       /* order 2 to 35; data: its (order + 1) (order
                                + 2) (order + 3) / 6 coefficients           */
     BRUME_SHAPE_SUPERELLIPSOID, /* a[0]: e, a[1]: n                        */
+    BRUME_SHAPE_OVUS,       /* about y: radius of the bottom ball, radius_b of
+                               the top one                                 */
     BRUME_SHAPE_BLOB,       /* radius: threshold; data: BRUME_BLOB_NUMBERS a
                                component: 0 sphere or 1 cylinder, strength,
                                radius, centre or base xyz, end xyz, then its

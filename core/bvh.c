@@ -165,7 +165,7 @@ static bool make_node(struct flat *f, struct bvh_item *items,
     memcpy(f->bvh[t.node].hi, box.hi, sizeof box.hi);
     size_t left = cut(part, t.count, t.depth, &box, &centres);
     if (left == 0) {
-        f->bvh[t.node].first = (uint32_t)t.first;
+        f->bvh[t.node].first = (uint32_t)(f->bvh_items_count + t.first);
         f->bvh[t.node].count = (uint32_t)t.count;
         return true;
     }
@@ -185,9 +185,10 @@ bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
 {
     if (count == 0)
         return true;
+    uint32_t root = (uint32_t)flat->bvh_count;
     if (!FLAT_EXTEND(flat, bvh, 1, err))
         return false;
-    struct task stack[2 * BVH_STACK] = {{0, count, 0, 0}};
+    struct task stack[2 * BVH_STACK] = {{0, count, root, 0}};
     int tasks = 1;
     while (tasks > 0)
         if (tasks--, !make_node(flat, items, stack, &tasks, stack[tasks], err))

@@ -9,8 +9,9 @@ struct bvh_item {
     uint32_t name;          /* what bvh_items stores                       */
 };
 
-/* Builds flat->bvh and flat->bvh_items; reorders `items`. The tree is at most
- * BVH_STACK deep and the same for the same items in the same order. */
+/* Adds a tree to flat->bvh and flat->bvh_items, whose root is the next node;
+ * reorders `items`. The tree is at most BVH_STACK deep and the same for the
+ * same items in the same order. */
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err);
 #endif

@@ -8,74 +8,22 @@
 /* Rays end here at the latest, in scene units, as in POV-Ray. */
 #define FAR 1e7
 
-struct bounds {
-    double lo[3], hi[3];
-};
-
-static void bounds_add(struct bounds *b, const double p[3])
+/* Bounds of what is seen of all bounded parts. */
+static struct box scene_bounds(const struct assembly *a)
 {
-    for (int i = 0; i < 3; i++) {
-        b->lo[i] = fmin(b->lo[i], p[i]);
-        b->hi[i] = fmax(b->hi[i], p[i]);
-    }
-}
-
-static void bounds_add_ball(struct bounds *b, const matrix *m,
-                            const double p[3], double radius)
-{
-    for (int i = 0; i < 8; i++) {
-        double q[3] = {p[0] + (i & 1 ? radius : -radius),
-                       p[1] + (i & 2 ? radius : -radius),
-                       p[2] + (i & 4 ? radius : -radius)};
-        matrix_point(m, q, q);
-        bounds_add(b, q);
-    }
-}
-
-static void bounds_add_shape(struct bounds *b, const brume_scene *scene,
-                             const struct brume_shape *s)
-{
-    matrix m = matrix_from(s->transform);
-    double p[3];
-    switch (s->kind) {
-    case BRUME_SHAPE_SPHERE:
-    case BRUME_SHAPE_DISC:
-        bounds_add_ball(b, &m, s->a, s->radius);
-        return;
-    case BRUME_SHAPE_CYLINDER:
-    case BRUME_SHAPE_CONE:
-        bounds_add_ball(b, &m, s->a, s->radius);
-        bounds_add_ball(b, &m, s->b,
-                        s->kind == BRUME_SHAPE_CONE ? s->radius_b : s->radius);
-        return;
-    case BRUME_SHAPE_BOX:
-        for (int i = 0; i < 8; i++) {
-            for (int k = 0; k < 3; k++)
-                p[k] = i >> k & 1 ? s->b[k] : s->a[k];
-            matrix_point(&m, p, p);
-            bounds_add(b, p);
-        }
-        return;
-    case BRUME_SHAPE_MESH:
-        for (size_t i = 0; i < scene->meshes[s->mesh]->vertices; i++) {
-            matrix_point(&m, scene->meshes[s->mesh]->position[i], p);
-            bounds_add(b, p);
-        }
-        return;
-    default:
-        return;
-    }
+    struct box out = box_empty();
+    for (size_t i = 0; i < a->parts_count; i++)
+        if (box_is_bounded(&a->parts[i].seen) &&
+            !box_is_empty(&a->parts[i].seen))
+            out = box_hull(&out, &a->parts[i].seen);
+    return out;
 }
 
 /* A power of two that brings the scene's extent near 1, so that usual numbers
  * keep their bits, and an origin only where the scene lies far from it. */
-static void set_unit(struct flat *f, const brume_scene *scene)
+static void set_unit(struct flat *f, const struct assembly *a)
 {
-    struct bounds b = {{INFINITY, INFINITY, INFINITY},
-                       {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t i = 0; i < scene->shapes_count; i++)
-        if (!scene->shapes[i].part)
-            bounds_add_shape(&b, scene, &scene->shapes[i]);
+    struct box b = scene_bounds(a);
     double extent = 0.0, away = 0.0;
     for (int i = 0; i < 3; i++) {
         if (!(b.hi[i] >= b.lo[i]))
@@ -192,7 +140,8 @@ static bool add_eye(struct flat *f, struct brume_error *err)
     return out != NULL || set.count == 0;
 }
 
-static bool prepare_all(const struct prepare *job, struct brume_error *err)
+static bool prepare_all(const struct prepare *job, const struct assembly *a,
+                        struct brume_error *err)
 {
     struct flat *f = job->flat;
     const brume_scene *s = job->scene;
@@ -200,13 +149,13 @@ static bool prepare_all(const struct prepare *job, struct brume_error *err)
     if (!table)
         return false;
     blackbody_fill(table);
-    set_unit(f, s);
+    set_unit(f, a);
     set_camera(f, &s->camera);
     set_globals(f, &s->globals);
     for (size_t i = 0; i < s->materials_count; i++)
         if (!add_material(job, &s->materials[i], err))
             return false;
-    if (!prepare_lights(job, err) || !prepare_shapes(job, err) ||
+    if (!prepare_lights(job, err) || !prepare_shapes(job, a, err) ||
         !prepare_grids(job, err) || !prepare_media(job, err) ||
         !prepare_glow(job, err))
         return false;
@@ -224,7 +173,13 @@ struct flat *prepare_scene(const struct prepare *request,
     job.flat = flat_new(err);
     if (!job.flat)
         return NULL;
-    if (!prepare_all(&job, err)) {
+    struct assembly assembly;
+    bool good = assembly_make(job.scene, -1, &assembly, err);
+    if (good) {
+        good = prepare_all(&job, &assembly, err);
+        assembly_release(&assembly);
+    }
+    if (!good) {
         flat_free(job.flat);
         return NULL;
     }

@@ -2,6 +2,7 @@
  * file a topic; all are called by prepare_scene in this order. */
 #ifndef CORE_PREPARE_H
 #define CORE_PREPARE_H
+#include "core/assembly.h"
 #include "core/flat.h"
 
 struct prepare {
@@ -10,6 +11,8 @@ struct prepare {
     int threads;
     void (*warn)(void *user, const char *text);     /* may be NULL */
     void *user;
+    bool exact;             /* for queries: all numbers in double, and trees
+                               of single shapes too                        */
 };
 
 /* The whole of it; NULL with err set on failure. */
@@ -18,7 +21,8 @@ struct flat *prepare_scene(const struct prepare *job, struct brume_error *err);
 /* prepare_lights.c: lights, and the sky as one. */
 bool prepare_lights(const struct prepare *job, struct brume_error *err);
 /* prepare_shapes.c: shapes, triangles, their bounds and the tree. */
-bool prepare_shapes(const struct prepare *job, struct brume_error *err);
+bool prepare_shapes(const struct prepare *job, const struct assembly *a,
+                    struct brume_error *err);
 /* prepare_grids.c: bricks with aprons, fields. */
 bool prepare_grids(const struct prepare *job, struct brume_error *err);
 /* prepare_media.c: media, their majorant lattices, interiors. */

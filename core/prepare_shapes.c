@@ -1,140 +1,11 @@
-/* Shapes get their canonical space, meshes become triangles of unit space,
- * and both go into one tree. */
+/* Leaves get their map from unit space, meshes become triangles of it, and
+ * what can be seen goes into one tree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "core/bvh.h"
 #include "core/physics/bvh.h"
 #include "core/prepare.h"
-
-static void normalize(double v[3])
-{
-    double l = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3; i++)
-        v[i] /= l;
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-/* Columns (radius x, radius y, axis) and origin: x and y any unit vectors
- * normal to the axis. */
-static matrix axis_frame(const double origin[3], const double axis[3],
-                         double radius)
-{
-    double z[3] = {axis[0], axis[1], axis[2]}, x[3], y[3];
-    normalize(z);
-    double side[3] = {0, 0, 0};
-    side[fabs(z[0]) < 0.5 ? 0 : 1] = 1.0;
-    cross(side, z, x);
-    normalize(x);
-    cross(z, x, y);
-    matrix out;
-    for (int i = 0; i < 3; i++) {
-        out.m[i][0] = radius * x[i];
-        out.m[i][1] = radius * y[i];
-        out.m[i][2] = axis[i];
-        out.m[i][3] = origin[i];
-    }
-    return out;
-}
-
-static matrix cone_frame(const struct brume_shape *in, float params[4])
-{
-    double axis[3], radius = in->radius;
-    for (int i = 0; i < 3; i++)
-        axis[i] = in->b[i] - in->a[i];
-    if (in->kind == BRUME_SHAPE_CYLINDER) {
-        params[0] = in->open;
-    } else {
-        radius = fmax(in->radius, in->radius_b);
-        params[0] = (float)(in->radius / radius);
-        params[1] = (float)(in->radius_b / radius);
-        params[2] = in->open;
-    }
-    return axis_frame(in->a, axis, radius);
-}
-
-static matrix plane_frame(const struct brume_shape *in)
-{
-    double n[3] = {in->a[0], in->a[1], in->a[2]}, origin[3];
-    normalize(n);
-    for (int i = 0; i < 3; i++)
-        origin[i] = n[i] * in->radius;
-    return axis_frame(origin, n, 1.0);
-}
-
-static matrix disc_frame(const struct brume_shape *in, float params[4])
-{
-    double n[3] = {in->b[0], in->b[1], in->b[2]};
-    normalize(n);
-    params[0] = (float)(in->radius_b / in->radius);
-    return axis_frame(in->a, n, in->radius);
-}
-
-static matrix box_frame(const struct brume_shape *in)
-{
-    matrix out = matrix_identity();
-    for (int i = 0; i < 3; i++) {
-        out.m[i][i] = 0.5 * fabs(in->b[i] - in->a[i]);
-        out.m[i][3] = 0.5 * (in->a[i] + in->b[i]);
-    }
-    return out;
-}
-
-/* The shape's canonical space (shape.h) in that of its parameters. */
-static matrix canonical(const struct brume_shape *in, flat_shape *out)
-{
-    switch (in->kind) {
-    case BRUME_SHAPE_SPHERE:
-        out->kind = SHAPE_SPHERE;
-        return matrix_scale_move(in->radius, in->a);
-    case BRUME_SHAPE_BOX:
-        out->kind = SHAPE_BOX;
-        return box_frame(in);
-    case BRUME_SHAPE_CYLINDER:
-        out->kind = SHAPE_CYLINDER;
-        return cone_frame(in, out->params);
-    case BRUME_SHAPE_CONE:
-        out->kind = SHAPE_CONE;
-        return cone_frame(in, out->params);
-    case BRUME_SHAPE_PLANE:
-        out->kind = SHAPE_PLANE;
-        return plane_frame(in);
-    case BRUME_SHAPE_DISC:
-        out->kind = SHAPE_DISC;
-        return disc_frame(in, out->params);
-    default:
-        out->kind = SHAPE_MESH;
-        return matrix_identity();
-    }
-}
-
-/* Bounds of the canonical shape under a map, widened by float's rounding. */
-static void shape_bounds(int kind, const matrix *m, struct bvh_item *box)
-{
-    for (int i = 0; i < 3; i++) {
-        const double *r = m->m[i];
-        double centre = r[3], half;
-        if (kind == SHAPE_SPHERE) {
-            half = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-        } else if (kind == SHAPE_BOX) {
-            half = fabs(r[0]) + fabs(r[1]) + fabs(r[2]);
-        } else {
-            double tall = kind == SHAPE_DISC ? 0.0 : 0.5;
-            centre += tall * r[2];
-            half = sqrt(r[0] * r[0] + r[1] * r[1]) + tall * fabs(r[2]);
-        }
-        double slack = 1e-6 * (fabs(centre) + half);
-        box->lo[i] = (float)(centre - half - slack);
-        box->hi[i] = (float)(centre + half + slack);
-    }
-}
 
 static vec3 to_vec3(const double p[3])
 {
@@ -166,10 +37,11 @@ static double triangle_volume(const vec3 p[3])
     return (double)vec3_dot(p[0], vec3_cross(p[1], p[2]));
 }
 
-static bool add_triangles(struct flat *f, const struct mesh *m,
+static bool add_triangles(struct flat *f, const struct leaf *leaf,
                           const matrix *to_unit, int32_t shape,
                           struct brume_error *err)
 {
+    const struct mesh *m = leaf->mesh;
     matrix from_unit;
     double volume = 0.0;
     if (!matrix_invert(to_unit, &from_unit))
@@ -187,6 +59,7 @@ static bool add_triangles(struct flat *f, const struct mesh *m,
             out[t].p[i] = to_vec3(p);
         }
         out[t].shape = shape;
+        out[t].unseen = t >= leaf->seen_triangles;
         out[t].smooth = add_normals(f, m, t, &from_unit, err);
         if (err && err->code != BRUME_OK)
             return false;
@@ -197,48 +70,125 @@ static bool add_triangles(struct flat *f, const struct mesh *m,
     return true;
 }
 
-static int32_t shape_flags(const struct brume_shape *in)
+/* The map to_local, and what follows it there. */
+static bool add_numbers(struct flat *f, flat_shape *out, const matrix *to_local,
+                        const double *data, size_t count,
+                        struct brume_error *err)
 {
-    return (in->hollow ? SHAPE_HOLLOW : 0) | (in->inverse ? SHAPE_INVERSE : 0) |
-           (in->shadow ? 0 : SHAPE_NO_SHADOW);
+    out->number = f->numbers_count;
+    double *to = FLAT_EXTEND(f, numbers, NUMBERS_MAP + count, err);
+    if (!to)
+        return false;
+    memcpy(to, to_local->m, sizeof to_local->m);
+    memcpy(to + NUMBERS_MAP, data, count * sizeof *data);
+    return true;
 }
 
 /* A shape that its map flattens is left out: nothing of it can be seen, or
  * (a box without thickness) it is not closed. */
-static bool add_shape(const struct prepare *job, const struct brume_shape *in,
-                      struct brume_error *err)
+static bool add_leaf(const struct prepare *job, const struct leaf *leaf,
+                     int32_t id, struct brume_error *err)
 {
     struct flat *f = job->flat;
-    int32_t id = (int32_t)f->shapes_count;
-    flat_shape *out = FLAT_EXTEND(f, shapes, 1, err);
-    if (!out)
-        return false;
-    matrix local = canonical(in, out), placed = matrix_from(in->transform);
-    matrix map = matrix_compose(&placed, &local), inverse;
-    map = matrix_compose(&f->to_unit, &map);
-    out->material = in->material;
-    out->interior = in->interior;
-    out->flags = shape_flags(in);
-    if (out->kind == SHAPE_MESH)
-        return add_triangles(f, job->scene->meshes[in->mesh], &map, id, err);
+    flat_shape *out = &f->shapes[id];
+    matrix map = matrix_compose(&f->to_unit, &leaf->map), inverse;
+    out->kind = leaf->kind;
+    out->tree = -1;
+    if (leaf->kind == SHAPE_MESH)
+        return add_triangles(f, leaf, &map, id, err);
     if (!matrix_finite(&map) || !matrix_invert(&map, &inverse)) {
         out->kind = SHAPE_MESH; /* of no triangles */
+        out->flags |= SHAPE_THIN;
         if (job->warn)
             job->warn(job->user, "a shape without extent is left out");
         return true;
     }
     out->to_local = matrix_affine(&inverse);
+    for (int i = 0; i < 4; i++)
+        out->params[i] = (float)leaf->params[i];
+    if (leaf->kind >= SOLID_FIRST)
+        return add_numbers(f, out, &inverse, leaf->solid.data,
+                           leaf->solid.count, err);
+    return !job->exact || add_numbers(f, out, &inverse, leaf->params, 4, err);
+}
+
+static bool add_parts(const struct prepare *job, const struct assembly *a,
+                      struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    if (!FLAT_EXTEND(f, shapes, a->parts_count, err) && a->parts_count > 0)
+        return false;
+    for (size_t i = 0; i < a->parts_count; i++) {
+        const struct part *p = &a->parts[i];
+        const struct whole *whole = &a->wholes[p->whole];
+        flat_shape *out = &f->shapes[i];
+        out->material = p->material;
+        out->interior = p->node < 0 ? whole->interior : -1;
+        out->flags = p->flags;
+        out->node = p->node;
+        out->container = (int32_t)(p->node < 0
+                                       ? i
+                                       : a->parts_count + (size_t)p->whole);
+        if (!add_leaf(job, &p->leaf, (int32_t)i, err))
+            return false;
+    }
     return true;
 }
 
-static matrix shape_map(const flat_shape *s)
+/* Composites follow the parts, in the places of all wholes. */
+static bool add_wholes(struct flat *f, const struct assembly *a,
+                       struct brume_error *err)
 {
-    matrix to_local, out = matrix_identity();
-    for (int i = 0; i < 12; i++)
-        to_local.m[i / 4][i % 4] = s->to_local.m[i];
-    matrix_invert(&to_local, &out);
-    return out;
+    flat_shape *out = FLAT_EXTEND(f, shapes, a->wholes_count, err);
+    if (!out && a->wholes_count > 0)
+        return false;
+    for (size_t i = 0; i < a->wholes_count; i++) {
+        const struct whole *whole = &a->wholes[i];
+        out[i].kind = whole->node < 0 ? SHAPE_MESH : SHAPE_COMPOSITE;
+        out[i].material = out[i].tree = -1;
+        out[i].interior = whole->node < 0 ? -1 : whole->interior;
+        out[i].flags = whole->flags;
+        out[i].node = whole->node;
+        out[i].container = (int32_t)(a->parts_count + i);
+    }
+    return true;
 }
+
+/* A box of unit space in float, widened by the rounding. */
+static void unit_box(const struct flat *f, const struct box *b, float lo[3],
+                     float hi[3])
+{
+    for (int i = 0; i < 3; i++) {
+        double x = (b->lo[i] - f->centre[i]) * f->unit;
+        double y = (b->hi[i] - f->centre[i]) * f->unit;
+        double slack = 1e-6 * (fabs(x) + fabs(y));
+        if (!isfinite(slack))
+            slack = 1e-6 * (isfinite(x) ? fabs(x) : fabs(y));
+        lo[i] = (float)(x - slack);
+        hi[i] = (float)(y + slack);
+    }
+}
+
+static bool add_nodes(struct flat *f, const struct assembly *a,
+                      struct brume_error *err)
+{
+    csg_node *out = FLAT_EXTEND(f, csg, a->nodes_count, err);
+    if (!out && a->nodes_count > 0)
+        return false;
+    for (size_t i = 0; i < a->nodes_count; i++) {
+        const struct node *n = &a->nodes[i];
+        out[i].parent = n->parent;
+        out[i].first = n->first;
+        out[i].next = n->next;
+        out[i].shape = n->part;
+        out[i].op = (uint8_t)n->op;
+        out[i].beyond = n->beyond;
+        unit_box(f, &n->bounds, out[i].lo, out[i].hi);
+    }
+    return true;
+}
+
+/* ---- trees ------------------------------------------------------------- */
 
 static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
 {
@@ -252,44 +202,86 @@ static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
     out->name = (uint32_t)(f->shapes_count + i);
 }
 
-static bool make_tree(struct flat *f, struct brume_error *err)
+/* What only bounds media is not looked for where there are none. */
+static bool is_sought(const struct flat *f, size_t i)
 {
-    size_t n = 0, most = f->shapes_count + f->triangles_count;
+    const flat_shape *s = &f->shapes[i];
+    bool seen = s->material >= 0 && !(s->flags & SHAPE_UNSEEN);
+    return seen || csg_has_media(&f->view, s);
+}
+
+/* The tree of all that rays look for comes first. */
+static bool make_tree(const struct prepare *job, const struct assembly *a,
+                      struct bvh_item *items, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    size_t n = 0;
+    for (size_t i = 0; i < a->parts_count; i++) {
+        const struct box *seen = &a->parts[i].seen;
+        if (f->shapes[i].kind == SHAPE_MESH || box_is_empty(seen) ||
+            !(job->exact || is_sought(f, i)))
+            continue;
+        if (!box_is_bounded(seen)) {
+            int32_t *u = FLAT_EXTEND(f, unbounded, 1, err);
+            if (!u)
+                return false;
+            *u = (int32_t)i;
+            continue;
+        }
+        unit_box(f, seen, items[n].lo, items[n].hi);
+        items[n++].name = (uint32_t)i;
+    }
+    for (size_t i = 0; i < f->triangles_count; i++)
+        triangle_item(f, i, &items[n++]);
+    return bvh_build(f, items, n, err);
+}
+
+/* Meshes whose inside is asked for have trees of their own. */
+static bool make_mesh_trees(const struct prepare *job, const struct assembly *a,
+                            struct bvh_item *items, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    for (size_t i = 0; i < a->parts_count; i++) {
+        flat_shape *s = &f->shapes[i];
+        const double *v = a->parts[i].leaf.inside;
+        if (s->kind != SHAPE_MESH || s->triangles == 0 ||
+            (s->flags & SHAPE_THIN) || (s->node < 0 && !job->exact))
+            continue;
+        s->inside = to_vec3(v);
+        s->tree = (int32_t)f->bvh_count;
+        for (size_t t = 0; t < s->triangles; t++)
+            triangle_item(f, s->triangle + t, &items[t]);
+        if (!bvh_build(f, items, s->triangles, err))
+            return false;
+    }
+    return true;
+}
+
+static bool make_trees(const struct prepare *job, const struct assembly *a,
+                       struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    size_t most = f->shapes_count + f->triangles_count;
     if (most > UINT32_MAX)
         return brume_fail(err, BRUME_ERR_LIMIT, "more than 2^32 surfaces");
     struct bvh_item *items = malloc((most + 1) * sizeof *items);
     if (!items)
         return brume_fail(err, BRUME_ERR_MEMORY,
                           "out of memory for a tree over %zu surfaces", most);
-    bool good = true;
-    for (size_t i = 0; good && i < f->shapes_count; i++) {
-        int kind = f->shapes[i].kind;
-        if (kind == SHAPE_PLANE) {
-            int32_t *u = FLAT_EXTEND(f, unbounded, 1, err);
-            good = u != NULL;
-            if (u)
-                *u = (int32_t)i;
-        } else if (kind != SHAPE_MESH) {
-            matrix map = shape_map(&f->shapes[i]);
-            shape_bounds(kind, &map, &items[n]);
-            items[n++].name = (uint32_t)i;
-        }
-    }
-    for (size_t i = 0; i < f->triangles_count; i++)
-        triangle_item(f, i, &items[n++]);
-    good = good && bvh_build(f, items, n, err);
+    flat_view(f);
+    bool good = make_tree(job, a, items, err) &&
+                make_mesh_trees(job, a, items, err);
     free(items);
     return good;
 }
 
-bool prepare_shapes(const struct prepare *job, struct brume_error *err)
+bool prepare_shapes(const struct prepare *job, const struct assembly *a,
+                    struct brume_error *err)
 {
-    const brume_scene *s = job->scene;
-    for (size_t i = 0; i < s->shapes_count; i++)
-        if (!s->shapes[i].part && !add_shape(job, &s->shapes[i], err))
-            return false;
-    if (!make_tree(job->flat, err))
+    struct flat *f = job->flat;
+    if (!add_parts(job, a, err) || !add_wholes(f, a, err) ||
+        !add_nodes(f, a, err) || !make_trees(job, a, err))
         return false;
-    flat_view(job->flat);
+    flat_view(f);
     return true;
 }

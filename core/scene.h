@@ -10,6 +10,8 @@ struct scene_interior {
     int count;
 };
 
+struct scene_query;
+
 #define SCENE_LISTS(X)                                                        \
     X(struct brume_light, lights)                                             \
     X(struct brume_material, materials)                                       \
@@ -17,6 +19,7 @@ struct scene_interior {
     X(struct brume_field, fields)                                             \
     X(struct brume_medium, media)                                             \
     X(struct scene_interior, interiors)                                       \
+    X(struct scene_query, queries)      /* of shapes: query.h */              \
     X(struct mesh *, meshes)                                                  \
     X(struct grid *, grids)                                                   \
     X(machine_instruction, code)        /* of all functions */                \

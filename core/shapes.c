@@ -22,12 +22,13 @@ static const struct rule rules[] = {
     [BRUME_SHAPE_PLANE] = {"a plane", 0, 0, true, true},
     [BRUME_SHAPE_DISC] = {"a disc", 0, 0, false, true},
     [BRUME_SHAPE_MESH] = {"a mesh", 0, 0, false, true},
-    [BRUME_SHAPE_TORUS] = {"a torus", 0, 0, false, false},
-    [BRUME_SHAPE_QUADRIC] = {"a quadric", 10, 0, true, false},
-    [BRUME_SHAPE_POLY] = {"a poly", 0, 1, true, false},
-    [BRUME_SHAPE_SUPERELLIPSOID] = {"a superellipsoid", 0, 0, true, false},
+    [BRUME_SHAPE_TORUS] = {"a torus", 0, 0, false, true},
+    [BRUME_SHAPE_QUADRIC] = {"a quadric", 10, 0, true, true},
+    [BRUME_SHAPE_POLY] = {"a poly", 0, 1, true, true},
+    [BRUME_SHAPE_SUPERELLIPSOID] = {"a superellipsoid", 0, 0, true, true},
+    [BRUME_SHAPE_OVUS] = {"an ovus", 0, 0, true, true},
     [BRUME_SHAPE_BLOB] = {"a blob", BRUME_BLOB_NUMBERS, BRUME_BLOB_NUMBERS,
-                          true, false},
+                          true, true},
     [BRUME_SHAPE_LATHE] = {"a lathe", 4, 2, true, false},
     [BRUME_SHAPE_PRISM] = {"a prism", 6, 2, true, false},
     [BRUME_SHAPE_SOR] = {"a sor", 8, 2, true, false},
@@ -35,14 +36,14 @@ static const struct rule rules[] = {
     [BRUME_SHAPE_JULIA] = {"a julia_fractal", 11, 0, true, false},
     [BRUME_SHAPE_ISOSURFACE] = {"an isosurface", 0, 0, false, false},
     [BRUME_SHAPE_PARAMETRIC] = {"a parametric", 4, 0, false, false},
-    [BRUME_SHAPE_POLYGON] = {"a polygon", 9, 3, true, false},
+    [BRUME_SHAPE_POLYGON] = {"a polygon", 9, 3, true, true},
     [BRUME_SHAPE_BICUBIC_PATCH] = {"a bicubic_patch", 48, 0, true, false},
     [BRUME_SHAPE_HEIGHT_FIELD] = {"a height_field", 4, 1, true, false},
     [BRUME_SHAPE_TEXT] = {"a text", 0, 1, true, false},
-    [BRUME_SHAPE_UNION] = {"a union", 0, 0, true, false},
-    [BRUME_SHAPE_MERGE] = {"a merge", 0, 0, true, false},
-    [BRUME_SHAPE_INTERSECTION] = {"an intersection", 0, 0, true, false},
-    [BRUME_SHAPE_DIFFERENCE] = {"a difference", 0, 0, true, false},
+    [BRUME_SHAPE_UNION] = {"a union", 0, 0, true, true},
+    [BRUME_SHAPE_MERGE] = {"a merge", 0, 0, true, true},
+    [BRUME_SHAPE_INTERSECTION] = {"an intersection", 0, 0, true, true},
+    [BRUME_SHAPE_DIFFERENCE] = {"a difference", 0, 0, true, true},
 };
 enum { KINDS = sizeof rules / sizeof *rules };
 
@@ -99,7 +100,7 @@ bool shape_check(const brume_scene *scene, const struct brume_shape *s,
     if ((int)s->kind < 0 || (int)s->kind >= KINDS)
         return brume_fail(err, BRUME_ERR_SCENE, "there is no shape kind %d",
                           (int)s->kind);
-    if (!rules[s->kind].ready || s->clip_count > 0)
+    if (!rules[s->kind].ready)
         return brume_fail(err, BRUME_ERR_SCENE, "%s is not supported yet",
                           rules[s->kind].name);
     if (!check_finite(s->a, 3, "a shape's point", err) ||

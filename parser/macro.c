@@ -60,19 +60,19 @@ static bool is_defined(const struct expander *expander, const struct name *name,
 {
     const struct value *value = symbols_find(name);
     return value && value->kind == VALUE_MACRO &&
-           value->macro->chunk == expand_frame(expander)->cursor.chunk &&
+           value->macro->source == expand_frame(expander)->source &&
            value->macro->define == at;
 }
 
 bool macro_define(struct expander *expander)
 {
     struct parser *parser = expander->parser;
-    struct cursor *cursor = &expand_frame(expander)->cursor;
-    uint32_t opener = (uint32_t)cursor->next - 1;
+    struct frame *frame = expand_frame(expander);
+    uint32_t opener = (uint32_t)frame->next - 1;
     struct name *name = branch_is_closed(expander, opener)
                             ? need_free_name(expander)
                             : NULL;
-    size_t end = cursor->chunk->token[opener].block.pair;
+    size_t end = frame->source->token[opener].block.pair;
     if (!name) {
         return false;
     }
@@ -86,14 +86,13 @@ bool macro_define(struct expander *expander)
             return report_no_memory(parser);
         }
         macro->name = name;
-        macro->chunk = cursor->chunk;
-        macro->chunk->kept = true;
+        macro->source = frame->source;
         macro->define = opener;
-        macro->body = cursor->next;
+        macro->body = frame->next;
         symbol_value(symbol)->kind = VALUE_MACRO;
         symbol_value(symbol)->macro = macro;
     }
-    cursor_jump(cursor, end + 1);
+    frame->next = end + 1;
     return true;
 }
 
@@ -181,10 +180,10 @@ static bool enter(struct expander *expander)
         return parser_fail(parser, BRUME_ERR_LIMIT, call.at, NULL,
                            "macros are called deeper than %d", most);
     }
-    struct frame frame = {
-        .cursor = {.chunk = macro->chunk, .next = macro->body},
-        .macro = macro,
-        .called = call.at};
+    struct frame frame = {.source = macro->source,
+                          .next = macro->body,
+                          .macro = macro,
+                          .called = call.at};
     expander->calls--;
     expander->actuals = call.first;
     return bind(expander, &call) && expand_enter(expander, &frame);
@@ -228,7 +227,7 @@ static enum found find_reference(struct expander *expander)
     if (!value || token->name->symbol->constant || value->kind == VALUE_MACRO) {
         return FOUND_OTHER;
     }
-    expand_skip(expander);
+    expand_frame(expander)->next++;
     directive_used(expander, token);
     return add_actual(expander, value, value) ? FOUND_REFERENCE : FOUND_ERROR;
 }
@@ -262,7 +261,7 @@ static bool read_arguments(struct expander *expander)
             const struct token *token = expand_peek(expander);
             struct seek seek = {.item = symbols_find(token->name),
                                 .use = ITEM_ARGUMENT};
-            expand_skip(expander);
+            expand_frame(expander)->next++;
             return item_seek(expander, &seek, token_location(token));
         }
         enum found found = find_reference(expander);

@@ -1,5 +1,6 @@
 #include "parser/source.h"
 #include "lib/memory.h"
+#include "parser/lexer.h"
 #include "parser/report.h"
 #include "parser/utf8.h"
 #include <errno.h>
@@ -48,6 +49,7 @@ void source_release(struct parser *parser)
 {
     for (size_t i = 0; i < parser->sources; i++) {
         free(parser->source[i]->text);
+        free(parser->source[i]->token);
     }
     parser->sources = 0;
 }
@@ -65,12 +67,17 @@ static struct source *known(const struct parser *parser, const char *real)
 
 /* ---- reading ----------------------------------------------------------- */
 
-bool source_fits(struct parser *parser, struct location at)
+static bool over_memory(struct parser *parser, struct location at,
+                        const struct source *source)
 {
-    size_t most = parser->limits.memory;
-    return !most || parser->source_bytes <= most ||
-           parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
-                       "the texts need more than %zu bytes of memory", most);
+    size_t bytes = parser->source_bytes + source->length +
+                   source->room * sizeof *source->token;
+    if (parser->limits.memory && bytes > parser->limits.memory) {
+        return !parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                            "the texts need more than %zu bytes of memory",
+                            parser->limits.memory);
+    }
+    return false;
 }
 
 /* Room for `need` bytes and the padding. */
@@ -78,14 +85,12 @@ static bool make_room(struct parser *parser, struct location at,
                       struct source *source, size_t *room, size_t need)
 {
     struct brume_error err = {0};
-    size_t before = *room;
     char *text = memory_grow(source->text, room, need + PAD, 1, &err);
     if (!text) {
         return parser_relay(parser, at, &err);
     }
     source->text = text;
-    parser->source_bytes += *room - before;
-    return source_fits(parser, at);
+    return !over_memory(parser, at, source);
 }
 
 /* Reads up to the end, of pipes too. */
@@ -149,6 +154,18 @@ static bool copy_text(struct parser *parser, struct source *source)
     return true;
 }
 
+/* Turns what was read into tokens. */
+static struct source *finish(struct parser *parser, struct location at,
+                             struct source *source)
+{
+    if (!lexer_scan(parser, source) || over_memory(parser, at, source)) {
+        return NULL;
+    }
+    parser->source_bytes += source->length +
+                            source->room * sizeof *source->token;
+    return source;
+}
+
 static const char *resolve(struct parser *parser, const char *path)
 {
     char real[PATH_MAX];
@@ -163,7 +180,8 @@ struct source *source_open_scene(struct parser *parser)
         return source_open_path(parser, nowhere, parser->in->path);
     }
     struct source *source = add(parser, nowhere, parser->in->path);
-    return source && copy_text(parser, source) ? source : NULL;
+    return source && copy_text(parser, source) ? finish(parser, nowhere, source)
+                                               : NULL;
 }
 
 struct source *source_open(struct parser *parser, struct location at,
@@ -186,7 +204,7 @@ struct source *source_open_path(struct parser *parser, struct location at,
         return NULL;
     }
     source->real = real;
-    return source;
+    return finish(parser, at, source);
 }
 
 /* ---- places ------------------------------------------------------------ */

@@ -1,109 +1,93 @@
 /* bvh.h - the nearest surface along a ray.
  *
- * Hits are ordered by (distance, key), the key naming shape or triangle and
- * the root of it. A ray that passes through a boundary goes on from its hit in
- * that order, origin and direction unchanged: every root is computed from the
- * same numbers again, so none is found twice and none of several at the same
+ * A ray that passes through a boundary goes on from its hit in the order of
+ * ray.h, origin and direction unchanged: every root is computed from the same
+ * numbers again, so none is found twice and none of several at the same
  * distance is lost, without any epsilon. */
 #ifndef CORE_PHYSICS_BVH_H
 #define CORE_PHYSICS_BVH_H
-#include "core/physics/scene.h"
-#include "core/physics/shape.h"
-#include "core/physics/triangle.h"
+#include "core/physics/csg.h"
 
-enum { SHAPE_MESH = 100, BVH_STACK = 64 };
-
-typedef struct {
-    float t;
-    uint64_t key;           /* 4 item + root; orders hits at equal t       */
-    int32_t shape;          /* -1: no hit                                  */
-    int64_t triangle;       /* -1: an analytic shape                       */
-    int32_t root, surface;  /* of an analytic shape                        */
-    float u, v;             /* barycentric, of corners 1 and 2             */
-} ray_hit;
-
-typedef struct {
-    vec3 o, d;
-    vec3 inverse;           /* 1 / d                                       */
-    triangle_ray shear;
-} bvh_ray;
-
-HD ray_hit hit_none(float t_max)
+/* Completes a hit at which the ray gets into the primitive or `out` of it;
+ * false where it is nothing to the composite that the primitive is part of. */
+HD bool bvh_accept(const flat_scene *s, const bvh_ray *r, bool out,
+                   ray_hit *h)
 {
-    ray_hit h;
-    h.t = t_max;
-    h.key = UINT64_MAX;
-    h.shape = -1;
-    h.triangle = -1;
-    h.root = h.surface = 0;
-    h.u = h.v = 0.0f;
-    return h;
+    const flat_shape *f = &s->shapes[h->shape];
+    if (csg_has_media(s, f) && f->kind != SHAPE_DISC)
+        h->turn = out != ((f->flags & SHAPE_INVERSE) != 0) ? TURN_OUT
+                                                           : TURN_IN;
+    if (f->node < 0)
+        return h->seen || h->turn != TURN_NONE;
+    csg_place at = csg_on_ray(r, h->t, h->key);
+    return csg_crossing(s, f, &at, h);
 }
 
-/* The position from which a ray's first hit is sought. */
-HD ray_hit hit_start(float t_min)
+HD bool bvh_seen(const flat_shape *f, int surface)
 {
-    return hit_none(t_min);
-}
-
-HD bool hit_before(float t, uint64_t key, const ray_hit *h)
-{
-    return t < h->t || (t == h->t && key < h->key);
-}
-
-HD bool hit_after(float t, uint64_t key, const ray_hit *h)
-{
-    return t > h->t || (t == h->t && key > h->key);
-}
-
-HD bvh_ray bvh_ray_make(vec3 o, vec3 d)
-{
-    bvh_ray r;
-    r.o = o;
-    r.d = d;
-    r.inverse = vec3_make(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
-    r.shear = triangle_ray_make(d);
-    return r;
+    bool cap = surface == SHAPE_BOTTOM || surface == SHAPE_TOP;
+    return !(f->flags & SHAPE_UNSEEN) && !(cap && (f->flags & SHAPE_OPEN));
 }
 
 HD void bvh_hit_shape(const flat_scene *s, const bvh_ray *r, int32_t shape,
                       const ray_hit *after, ray_hit *best)
 {
     const flat_shape *f = &s->shapes[shape];
-    float t[SHAPE_MAX_ROOTS];
-    int surface[SHAPE_MAX_ROOTS];
-    vec3 o = affine_point(&f->to_local, r->o);
-    vec3 d = affine_vector(&f->to_local, r->d);
-    int roots = shape_roots(f->kind, f->params, o, d, t, surface);
-    for (int i = 0; i < roots; i++) {
-        uint64_t key = 4 * (uint64_t)shape + (uint64_t)i;
-        if (!hit_after(t[i], key, after) || !hit_before(t[i], key, best))
-            continue;
-        best->t = t[i];
-        best->key = key;
-        best->shape = shape;
-        best->triangle = -1;
-        best->root = i;
-        best->surface = surface[i];
+    real t[LEAF_MAX_ROOTS];
+    int surface[LEAF_MAX_ROOTS];
+    int roots = leaf_roots(s, f, r, t, surface);
+    bool out = leaf_inside_first(s, f, r, t, roots);
+    for (int i = 0; i < roots; i++, out = !out) {
+        ray_hit h = hit_none(t[i]);
+        h.key = ray_key((uint64_t)shape, i);
+        h.shape = shape;
+        h.root = i;
+        h.surface = surface[i];
+        h.seen = bvh_seen(f, surface[i]);
+        if (hit_after(t[i], h.key, after) && hit_before(t[i], h.key, best) &&
+            bvh_accept(s, r, out, &h))
+            *best = h;
     }
+}
+
+/* Whether the ray leaves a mesh at the hit: by its other walls where it is a
+ * leaf, else by the triangle's normal, as it may be open. */
+HD_APART bool bvh_leaves(const flat_scene *s, const bvh_ray *r,
+                         const ray_hit *h)
+{
+    const flat_shape *f = &s->shapes[h->shape];
+    if (f->node >= 0) {
+        csg_place at = csg_on_ray(r, h->t, h->key);
+        return !csg_mesh(s, f, &at);
+    }
+    const flat_triangle *t = &s->triangles[h->triangle];
+    real3 p = real3_from(t->p[0]);
+    real3 n = real3_cross(real3_sub(real3_from(t->p[1]), p),
+                          real3_sub(real3_from(t->p[2]), p));
+    bool flipped = (f->flags & SHAPE_FLIPPED) != 0;
+    return (real3_dot(n, r->d) < 0) == flipped;
 }
 
 HD void bvh_hit_triangle(const flat_scene *s, const bvh_ray *r, uint64_t i,
                          const ray_hit *after, ray_hit *best)
 {
     const flat_triangle *f = &s->triangles[i];
-    float t, u, v;
-    if (!triangle_hit(&r->shear, r->o, f->p[0], f->p[1], f->p[2], &t, &u, &v))
+    real t, u, v;
+    if (!triangle_hit(&r->shear, r->o, real3_from(f->p[0]),
+                      real3_from(f->p[1]), real3_from(f->p[2]), &t, &u, &v))
         return;
-    uint64_t key = 4 * (s->shapes_count + i);
-    if (!hit_after(t, key, after) || !hit_before(t, key, best))
+    ray_hit h = hit_none(t);
+    h.key = ray_key(s->shapes_count + i, 0);
+    if (!hit_after(t, h.key, after) || !hit_before(t, h.key, best))
         return;
-    best->t = t;
-    best->key = key;
-    best->shape = f->shape;
-    best->triangle = (int64_t)i;
-    best->u = u;
-    best->v = v;
+    h.shape = f->shape;
+    h.triangle = (int64_t)i;
+    h.u = u;
+    h.v = v;
+    h.seen = !f->unseen;
+    bool media = csg_has_media(s, &s->shapes[h.shape]);
+    if (bvh_accept(s, r, media && bvh_leaves(s, r, &h), &h))
+        *best = h;
 }
 
 HD void bvh_hit_leaf(const flat_scene *s, const bvh_ray *r,
@@ -118,28 +102,9 @@ HD void bvh_hit_leaf(const flat_scene *s, const bvh_ray *r,
     }
 }
 
-/* Entry distance of the box within [t_min, t_max]; infinite if missed. The
- * far side is widened by the rounding of the slab test (Ize 2013). */
-HD float bvh_enter(const bvh_node *n, const bvh_ray *r, float t_min,
-                   float t_max)
-{
-    const float wider = 1.0000004f;
-    float ax = (n->lo[0] - r->o.x) * r->inverse.x;
-    float bx = (n->hi[0] - r->o.x) * r->inverse.x;
-    float ay = (n->lo[1] - r->o.y) * r->inverse.y;
-    float by = (n->hi[1] - r->o.y) * r->inverse.y;
-    float az = (n->lo[2] - r->o.z) * r->inverse.z;
-    float bz = (n->hi[2] - r->o.z) * r->inverse.z;
-    float enter = hd_max(hd_max(hd_min(ax, bx), hd_min(ay, by)),
-                        hd_max(hd_min(az, bz), t_min));
-    float leave = hd_min(hd_min(hd_max(ax, bx), hd_max(ay, by)),
-                         hd_max(az, bz));
-    return enter <= hd_min(leave * wider, t_max) ? enter : INFINITY;
-}
-
 /* Nearest hit behind `after` and before distance t_max. */
 HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
-                       const ray_hit *after, float t_max)
+                       const ray_hit *after, real t_max)
 {
     ray_hit best = hit_none(t_max);
     best.key = 0;           /* t_max itself is excluded */
@@ -157,13 +122,13 @@ HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
             bvh_hit_leaf(s, r, n, after, &best);
         } else {
             uint32_t a = n->first, b = n->first + 1;
-            float ta = bvh_enter(&s->bvh[a], r, after->t, best.t);
-            float tb = bvh_enter(&s->bvh[b], r, after->t, best.t);
+            real ta = bvh_enter(&s->bvh[a], r, after->t, best.t);
+            real tb = bvh_enter(&s->bvh[b], r, after->t, best.t);
             if (tb < ta) {
                 uint32_t c = a;
                 a = b;
                 b = c;
-                float tc = ta;
+                real tc = ta;
                 ta = tb;
                 tb = tc;
             }
@@ -180,25 +145,6 @@ HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
             node = stack[--depth];
         } while (bvh_enter(&s->bvh[node], r, after->t, best.t) == INFINITY);
     }
-}
-
-/* Whether the ray enters the shape's inside at this hit. The roots of a
- * closed shape alternate; an open mesh or a plane goes by its normal. */
-HD bool hit_enters(const flat_scene *s, const ray_hit *h, vec3 d)
-{
-    const flat_shape *f = &s->shapes[h->shape];
-    bool in;
-    if (h->triangle >= 0) {
-        const flat_triangle *t = &s->triangles[h->triangle];
-        vec3 n = vec3_cross(vec3_sub(t->p[1], t->p[0]),
-                            vec3_sub(t->p[2], t->p[0]));
-        in = (vec3_dot(n, d) < 0.0f) != ((f->flags & SHAPE_FLIPPED) != 0);
-    } else if (f->kind == SHAPE_PLANE) {
-        in = affine_vector(&f->to_local, d).z < 0.0f;
-    } else {
-        in = (h->root & 1) == 0;
-    }
-    return in != ((f->flags & SHAPE_INVERSE) != 0);
 }
 
 #endif

@@ -15,6 +15,13 @@
 #define HD static inline
 #endif
 
+/* A function that stays one: called seldom, and large. */
+#ifdef __CUDACC__
+#define HD_APART static __noinline__ __host__ __device__
+#else
+#define HD_APART static __attribute__((noinline, unused))
+#endif
+
 /* Like fminf and fmaxf, which are calls on a plain x86-64, but for NaN: the
  * second argument is returned if either is NaN. */
 HD float hd_min(float a, float b)

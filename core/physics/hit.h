@@ -42,14 +42,41 @@ HD void hit_triangle_normals(const flat_scene *s, const ray_hit *h,
         *ns = mean;
 }
 
+/* A solid's point is found anew, in double: a float's distance is too far
+ * off for some normals. */
+HD vec3 hit_solid_normal(const flat_scene *s, const flat_shape *f,
+                         const bvh_ray *r, const ray_hit *h)
+{
+    const double *m = s->numbers + f->number;
+    double t[SOLID_MAX_ROOTS];
+    int part[SOLID_MAX_ROOTS];
+    leaf_solid_roots(s, f, r, t, part);
+    dvec3 o = leaf_solid_point(m, real3_double(r->o));
+    dvec3 d = leaf_solid_vector(m, real3_double(r->d));
+    dvec3 p = dvec3_mad(o, t[h->root], d);
+    dvec3 n = leaf_solid_normal(m, solid_normal(f->kind, m + NUMBERS_MAP, p,
+                                                part[h->root]));
+    double length = dvec3_length(n);
+    n = dvec3_scale(n, length > 0.0 ? 1.0 / length : 0.0);
+    return vec3_make((float)n.x, (float)n.y, (float)n.z);
+}
+
 HD vec3 hit_shape_normal(const flat_scene *s, const bvh_ray *r,
                          const ray_hit *h)
 {
     const flat_shape *f = &s->shapes[h->shape];
-    vec3 local = vec3_mad(affine_point(&f->to_local, r->o), h->t,
-                          affine_vector(&f->to_local, r->d));
+    if (leaf_is_solid(f))
+        return hit_solid_normal(s, f, r, h);
+    vec3 local = vec3_mad(leaf_point(s, f, r->o), h->t,
+                          leaf_vector(s, f, r->d));
     vec3 n = shape_normal(f->kind, f->params, local, h->surface);
-    return vec3_normalize(affine_normal(&f->to_local, n));
+    return vec3_normalize(leaf_normal(s, f, n));
+}
+
+/* The material of what is seen at the hit, or -1. */
+HD int32_t hit_material(const flat_scene *s, const ray_hit *h)
+{
+    return h->seen ? s->shapes[h->shape].material : -1;
 }
 
 HD int hit_checker(const flat_material *m, vec3 p)

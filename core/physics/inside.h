@@ -7,15 +7,14 @@
 /* A mesh's first boundary along some ray tells: it is left, or entered. */
 HD bool inside_mesh(const flat_scene *s, int32_t shape, vec3 p)
 {
-    vec3 d = vec3_make(0.5626f, 0.6874f, 0.4593f);
-    bvh_ray r = bvh_ray_make(p, d);
+    bvh_ray r = bvh_ray_make(p, vec3_make(0.5626f, 0.6874f, 0.4593f));
     ray_hit after = hit_start(0.0f);
     for (;;) {
         ray_hit h = bvh_nearest(s, &r, &after, INFINITY);
         if (h.shape < 0)
             return (s->shapes[shape].flags & SHAPE_INVERSE) != 0;
         if (h.shape == shape)
-            return !hit_enters(s, &h, d);
+            return h.turn == TURN_OUT;
         after = h;
     }
 }
@@ -23,11 +22,12 @@ HD bool inside_mesh(const flat_scene *s, int32_t shape, vec3 p)
 HD bool inside_shape(const flat_scene *s, int32_t shape, vec3 p)
 {
     const flat_shape *f = &s->shapes[shape];
-    if (f->kind == SHAPE_MESH)
+    csg_place at = csg_at_point(p);
+    if (f->kind == SHAPE_COMPOSITE)
+        return csg_holds(s, f->node, &at);
+    if (f->kind == SHAPE_MESH && f->tree < 0)
         return f->triangles > 0 && inside_mesh(s, shape, p);
-    bool in = shape_inside(f->kind, f->params,
-                           affine_point(&f->to_local, p));
-    return in != ((f->flags & SHAPE_INVERSE) != 0);
+    return csg_primitive(s, shape, &at);
 }
 
 /* All hollow shapes with media around the point p. */

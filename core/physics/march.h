@@ -43,7 +43,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
                       &out.radiance);
         if (h.shape < 0)
             break;
-        if (s->shapes[h.shape].material >= 0) {
+        if (hit_material(s, &h) >= 0) {
             rgb through = hit_transparency(s, &r, &h);
             if (out.depth == INFINITY &&
                 rgb_min(through) < 1.0f)
@@ -52,7 +52,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
         }
         if (rgb_is_black(pass))
             break;
-        shadow_cross(s, &h, d, &set);
+        shadow_cross(s, &h, &set);
         after = h;
     }
     rgb left = rgb_mul(pass, line_transmittance(&line));

@@ -515,7 +515,7 @@ HD bool path_passes(path_state *p, const hit_point *h)
 HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
                      const ray_hit *h)
 {
-    if (s->shapes[h->shape].material >= 0) {
+    if (hit_material(s, h) >= 0) {
         hit_point at = hit_resolve(s, r, h);
         if (!path_passes(p, &at)) {
             path_vertex v;
@@ -533,7 +533,7 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
             return path_bounce(p, &v);
         }
     }
-    shadow_cross(s, h, p->d, &p->inside);
+    shadow_cross(s, h, &p->inside);
     p->after = *h;
     return !rgb_is_black(p->beta);
 }

@@ -4,12 +4,14 @@
  * where the scene is read (a source file defines PHYSICS_DOUBLE before its
  * includes), in float where it is rendered. `real` is the number, REAL(1.5)
  * a constant, real_sin and its like the elementary functions: in float our
- * own (fmath.h), in double the C library's. */
+ * own (fmath.h), in double the C library's. real3 is vec3 or dvec3. */
 #ifndef CORE_PHYSICS_REAL_H
 #define CORE_PHYSICS_REAL_H
 #include <math.h>
+#include "core/physics/dvec.h"
 #include "core/physics/fmath.h"
 #include "core/physics/hd.h"
+#include "core/physics/vec.h"
 
 #ifdef PHYSICS_DOUBLE
 typedef double real;
@@ -62,15 +64,25 @@ HD real real_clamp(real x, real low, real high)
     return real_min(real_max(x, low), high);
 }
 
-typedef struct { real x, y, z; } real3;
+#ifdef PHYSICS_DOUBLE
+typedef dvec3 real3;
+#else
+typedef vec3 real3;
+#endif
 
 HD real3 real3_make(real x, real y, real z)
 {
-    real3 v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
-    return v;
+    return REAL_CHOOSE(dvec3_make(x, y, z), vec3_make(x, y, z));
+}
+
+HD real3 real3_from(vec3 v)
+{
+    return real3_make(v.x, v.y, v.z);
+}
+
+HD dvec3 real3_double(real3 v)
+{
+    return dvec3_make(v.x, v.y, v.z);
 }
 
 HD real3 real3_add(real3 a, real3 b)
@@ -92,6 +104,17 @@ HD real3 real3_scale(real3 a, real s)
 HD real3 real3_mad(real3 a, real s, real3 b)
 {
     return real3_make(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+}
+
+HD real3 real3_cross(real3 a, real3 b)
+{
+    return real3_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                      a.x * b.y - a.y * b.x);
+}
+
+HD real real3_get(real3 a, int axis)
+{
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
 HD real real3_dot(real3 a, real3 b)

@@ -90,21 +90,51 @@ typedef struct {
 } glow_brick;
 
 enum { SHAPE_HOLLOW = 1, SHAPE_INVERSE = 2, SHAPE_NO_SHADOW = 4,
-       SHAPE_FLIPPED = 8 /* a mesh whose normals point inward */ };
+       SHAPE_FLIPPED = 8 /* a mesh whose normals point inward */,
+       SHAPE_OPEN = 16 /* its caps bound it, and are not seen */,
+       SHAPE_UNSEEN = 32 /* it cuts, and is not seen */,
+       SHAPE_ENDLESS = 64 /* far away on a line may be inside */,
+       SHAPE_THIN = 128 /* it has no inside */ };
 
+/* What is hit, and what holds media: a primitive, alone or as leaf of a
+ * composite, or a composite, which is hit nowhere but through its leaves. */
 typedef struct {
-    int32_t kind;           /* SHAPE_* of shape.h, or SHAPE_MESH           */
+    int32_t kind;           /* SHAPE_* of shape.h, SOLID_* of solids.h,
+                               SHAPE_MESH or SHAPE_COMPOSITE               */
     float params[4];        /* shape.h                                     */
     affine to_local;
-    int32_t material, interior;     /* -1: none                            */
+    int32_t material, interior;     /* -1: none; a leaf's interior is that
+                               of its container                            */
     int32_t flags;
     uint64_t triangle, triangles;   /* a mesh's                            */
+    int32_t tree;           /* a mesh's own tree, if its inside is asked
+                               for at many points, or -1                   */
+    vec3 inside;            /* the direction in which its walls are counted */
+    uint64_t number;        /* first of its numbers: the map to_local in
+                               double, then a solid's data; in queries those
+                               of shape.h follow instead                   */
+    int32_t node;           /* of csg: a leaf's or the composite's, or -1  */
+    int32_t container;      /* the shape whose interior it bounds          */
 } flat_shape;
+
+enum { NUMBERS_MAP = 12 };
+
+enum { CSG_UNION, CSG_MERGE, CSG_INTERSECTION };
+
+/* Of the tree of a composite; inversions are at its leaves. */
+typedef struct {
+    float lo[3], hi[3];     /* beyond it the node is wholly inside or out  */
+    int32_t parent, first, next;    /* nodes, or -1                        */
+    int32_t shape;          /* a leaf's, or -1                             */
+    uint8_t op;
+    uint8_t beyond;         /* 1: what is beyond the bounds is inside      */
+} csg_node;
 
 typedef struct {
     vec3 p[3];
     int32_t shape;
     int32_t smooth;         /* first of three normals, or -1               */
+    int32_t unseen;         /* it closes a mesh that is seen as open       */
 } flat_triangle;
 
 typedef struct {
@@ -185,6 +215,8 @@ typedef struct {
     X(int32_t, unbounded)       /* shapes outside of the tree */              \
     X(flat_triangle, triangles)                                               \
     X(vec3, normals)                                                          \
+    X(csg_node, csg)                                                          \
+    X(double, numbers)                                                        \
     X(flat_material, materials)                                               \
     X(flat_light, lights)                                                     \
     X(flat_sky, sky)            /* one, or none: the background is all */     \

@@ -11,22 +11,19 @@ HD rgb shadow_surface(const flat_scene *s, const bvh_ray *r,
                       const ray_hit *h)
 {
     const flat_shape *f = &s->shapes[h->shape];
-    if (f->material < 0 || (f->flags & SHAPE_NO_SHADOW))
+    if (hit_material(s, h) < 0 || (f->flags & SHAPE_NO_SHADOW))
         return rgb_gray(1.0f);
     return hit_transparency(s, r, h);
 }
 
 /* Updates the containers of a ray that passes straight through a hit. */
-HD void shadow_cross(const flat_scene *s, const ray_hit *h, vec3 d,
+HD void shadow_cross(const flat_scene *s, const ray_hit *h,
                      container_set *set)
 {
-    const flat_shape *f = &s->shapes[h->shape];
-    if (f->interior < 0 || !(f->flags & SHAPE_HOLLOW))
-        return;
-    if (hit_enters(s, h, d))
-        container_enter(set, h->shape);
-    else
-        container_leave(set, h->shape);
+    if (h->turn == TURN_IN)
+        container_enter(set, s->shapes[h->shape].container);
+    else if (h->turn == TURN_OUT)
+        container_leave(set, s->shapes[h->shape].container);
 }
 
 /* Transmittance from o over `distance` along the unit vector d, unbiased.
@@ -49,7 +46,7 @@ HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
         left = rgb_mul(left, rgb_mul(media, pass));
         if (h.shape < 0 || rgb_is_black(left))
             return left;
-        shadow_cross(s, &h, d, set);
+        shadow_cross(s, &h, set);
         after = h;
     }
 }
