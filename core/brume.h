@@ -480,6 +480,11 @@ BRUME_API bool brume_function_variable(struct brume_function *function,
 BRUME_API int brume_add_function(brume_scene *scene,
                                  struct brume_function *function,
                                  struct brume_error *err);
+/* The function internal(number) of POV-Ray 3.7, which functions.inc names: of
+ * x, y, z and the parameters that the name has there. Fails if Brume has none
+ * of that number. */
+BRUME_API int brume_add_internal(brume_scene *scene, int number,
+                                 struct brume_error *err);
 /* How many parameters and results it has; false if there is no such id. */
 BRUME_API bool brume_function_arity(const brume_scene *scene, int id,
                                     int *parameters, int *results);

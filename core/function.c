@@ -249,6 +249,14 @@ static bool check_call(struct brume_function *f, int id, int arguments,
     return fail(f);
 }
 
+/* An internal function is called without a frame of its own. */
+static const machine_instruction *internal(const brume_scene *s,
+                                           const machine_function *callee)
+{
+    const machine_instruction *i = &s->code[callee->code];
+    return i->op == MACHINE_INTERNAL ? i : NULL;
+}
+
 bool brume_function_call(struct brume_function *function, int id, int arguments,
                          struct brume_error *err)
 {
@@ -257,6 +265,10 @@ bool brume_function_call(struct brume_function *function, int id, int arguments,
         !has(f, arguments, err))
         return false;
     const machine_function *callee = &f->scene->functions[id];
+    const machine_instruction *i = internal(f->scene, callee);
+    if (i)
+        return function_wide(f, MACHINE_INTERNAL, arguments, 1,
+                             home(f, f->height - arguments), i->b, 0, err);
     if (callee->calls + 1 > f->calls)
         f->calls = callee->calls + 1;
     return reach(f, home(f, f->height - arguments) + callee->registers, err) &&
@@ -485,6 +497,22 @@ int brume_add_function(brume_scene *scene, struct brume_function *function,
         id = add(function, err);
     brume_function_free(function);
     return id;
+}
+
+int brume_add_internal(brume_scene *scene, int number, struct brume_error *err)
+{
+    int parameters = internal_parameters(number);
+    if (parameters < 0) {
+        brume_fail(err, BRUME_ERR_SCENE, "there is no internal function %d%s",
+                   number, number == 9 ? " (f_comma) in Brume" : "");
+        return -1;
+    }
+    struct brume_function *f = brume_function_new(scene, 3 + parameters, err);
+    if (!f)
+        return -1;
+    emit(f, MACHINE_INTERNAL, 3 + parameters, 0, number, 0, err);
+    push_home(f, err);
+    return brume_add_function(scene, f, err);
 }
 
 /* ---- evaluation -------------------------------------------------------- */

@@ -40,6 +40,13 @@ static bool is_call(const struct verifier *v, int32_t id, int dst)
     return in_frame(v, dst, callee->registers) && callee->calls < v->f->calls;
 }
 
+/* The arguments of an internal function lie in the frame. */
+static bool is_internal(const struct verifier *v, const machine_instruction *i)
+{
+    int parameters = internal_parameters(i->b);
+    return parameters >= 0 && in_frame(v, i->a, 3 + parameters);
+}
+
 static bool operand_holds(const struct verifier *v, char shape,
                           const machine_instruction *i, int32_t operand,
                           int32_t at)
@@ -53,6 +60,8 @@ static bool operand_holds(const struct verifier *v, char shape,
         return operand > 0 && operand <= at + 1;
     case 'p':
         return operand >= 0 && (size_t)operand < v->scene->pool_count;
+    case 'i':
+        return is_internal(v, i);
     case 'f':
         return is_call(v, operand, i->dst);
     default:

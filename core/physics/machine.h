@@ -13,7 +13,7 @@
  * POV-Ray. Comparisons are exact and give 1 or 0. */
 #ifndef CORE_PHYSICS_MACHINE_H
 #define CORE_PHYSICS_MACHINE_H
-#include "core/physics/elementary.h"
+#include "core/physics/internal.h"
 
 enum {
     MACHINE_REGISTERS = 256,    /* of all frames of an evaluation          */
@@ -73,7 +73,8 @@ enum {
 
 /* The rest: NAME, and what dst, a, b and c are, for the verifier: a digit is
  * that many registers from dst on; v a value, r a register, j a distance to
- * jump forward, l one to loop back, f a function, n a plain number, - none. */
+ * jump forward, l one to loop back, f a function, i the first argument of an
+ * internal function, n a plain number, - none. */
 #define MACHINE_OTHER(X)                                                      \
     X(RETURN, "-vn-")       /* b results: one is a, more are registers a...*/ \
     X(CALL, "-f--")         /* frame at dst                                */ \
@@ -82,6 +83,7 @@ enum {
     X(JUMP_NOT_ZERO, "-jv-")                                                  \
     X(JUMP_GREATER, "-jvv") /* out of a loop                               */ \
     X(LOOP, "1l--")         /* dst += 1, and back                          */ \
+    X(INTERNAL, "1in-")     /* internal(b) of registers a...               */ \
     X(TRANSFORM, "3p--")    /* 12 numbers of the pool: rows of A|b         */ \
     X(GRAY, "3---")         /* dst becomes the gray of a colour            */ \
     X(HEIGHT, "3---")       /* ... its height, as in a height field        */
@@ -202,6 +204,9 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
                 goto dry;
             r[i->dst] += REAL(1.0);
             i -= i->a;
+            break;
+        case MACHINE_INTERNAL:
+            r[i->dst] = internal_eval(i->b, r + i->a);
             break;
         case MACHINE_TRANSFORM:
             machine_transform(m->pool + i->a, r + i->dst);
