@@ -11,14 +11,7 @@ struct open_block {
                                leaves; 0: none (token 0 opens as 0 + 1)    */
 };
 
-struct linker {
-    struct parser *parser;
-    struct token *token;
-    struct open_block *open;
-    size_t count, room;
-};
-
-bool block_opens(int kind)
+static bool opens(int kind)
 {
     return kind == TOK_HASH_IF || kind == TOK_HASH_IFDEF ||
            kind == TOK_HASH_IFNDEF || kind == TOK_HASH_SWITCH ||
@@ -43,7 +36,8 @@ static struct open_block *innermost(struct linker *linker)
     return linker->count ? &linker->open[linker->count - 1] : NULL;
 }
 
-static bool link_opener(struct linker *linker, uint32_t index)
+static bool link_opener(struct linker *linker, struct parser *parser,
+                        const struct token *token, uint32_t index)
 {
     struct brume_error err = {0};
     struct open_block *around = innermost(linker);
@@ -51,11 +45,10 @@ static bool link_opener(struct linker *linker, uint32_t index)
     struct open_block *grown = memory_grow(
         linker->open, &linker->room, linker->count + 1, sizeof *grown, &err);
     if (!grown) {
-        return parser_relay(linker->parser,
-                            token_location(&linker->token[index]), &err);
+        return parser_relay(parser, token_location(&token[index]), &err);
     }
     linker->open = grown;
-    if (!is_if(linker->token[index].kind)) {
+    if (!is_if(token[index].kind)) {
         breaks = index + 1;
     }
     grown[linker->count++] = (struct open_block){index, index, breaks};
@@ -63,10 +56,9 @@ static bool link_opener(struct linker *linker, uint32_t index)
 }
 
 /* A directive inside of a block; `fits`: it may follow the latest one. */
-static void link_inner(struct linker *linker, uint32_t index, bool fits,
-                       const char *error)
+static void link_inner(struct linker *linker, struct token *token,
+                       uint32_t index, bool fits, const char *error)
 {
-    struct token *token = linker->token;
     struct open_block *block = innermost(linker);
     if (!fits) {
         set_bad(&token[index], error);
@@ -77,33 +69,33 @@ static void link_inner(struct linker *linker, uint32_t index, bool fits,
     block->last = index;
 }
 
-static void link_end(struct linker *linker, uint32_t index)
+static void link_end(struct linker *linker, struct token *token, uint32_t index)
 {
     struct open_block *block = innermost(linker);
-    link_inner(linker, index, block, "#end closes nothing");
+    link_inner(linker, token, index, block, "#end closes nothing");
     if (block) {
-        linker->token[block->opener].block.pair = index;
+        token[block->opener].block.pair = index;
         linker->count--;
     }
 }
 
-static void link_break(struct linker *linker, uint32_t index)
+static void link_break(struct linker *linker, struct token *token,
+                       uint32_t index)
 {
     struct open_block *block = innermost(linker);
     if (!block || !block->breaks) {
-        set_bad(&linker->token[index],
-                "#break outside of a loop, #switch or #macro");
+        set_bad(&token[index], "#break outside of a loop, #switch or #macro");
         return;
     }
-    linker->token[index].block.pair = block->breaks - 1;
+    token[index].block.pair = block->breaks - 1;
 }
 
-static bool link_one(struct linker *linker, uint32_t index)
+bool block_link(struct linker *linker, struct parser *parser,
+                struct token *token, uint32_t index)
 {
-    const struct token *token = linker->token;
     int kind = token[index].kind;
-    if (block_opens(kind)) {
-        return link_opener(linker, index);
+    if (opens(kind)) {
+        return link_opener(linker, parser, token, index);
     }
     struct open_block *block = innermost(linker);
     int opener = block ? token[block->opener].kind : 0;
@@ -112,37 +104,26 @@ static bool link_one(struct linker *linker, uint32_t index)
     bool in_switch = opener == TOK_HASH_SWITCH && !after_else;
     switch (kind) {
     case TOK_HASH_ELSE:
-        link_inner(linker, index, in_if || in_switch,
+        link_inner(linker, token, index, in_if || in_switch,
                    "#else without an #if or #switch");
         break;
     case TOK_HASH_ELSEIF:
-        link_inner(linker, index, in_if, "#elseif without an #if");
+        link_inner(linker, token, index, in_if, "#elseif without an #if");
         break;
     case TOK_HASH_CASE:
-        link_inner(linker, index, in_switch, "#case without a #switch");
+        link_inner(linker, token, index, in_switch, "#case without a #switch");
         break;
     case TOK_HASH_RANGE:
-        link_inner(linker, index, in_switch, "#range without a #switch");
+        link_inner(linker, token, index, in_switch, "#range without a #switch");
         break;
     case TOK_HASH_BREAK:
-        link_break(linker, index);
+        link_break(linker, token, index);
         break;
     case TOK_HASH_END:
-        link_end(linker, index);
+        link_end(linker, token, index);
         break;
     default:
         break;
     }
     return true;
-}
-
-bool block_link(struct parser *parser, struct source *source)
-{
-    struct linker linker = {.parser = parser, .token = source->token};
-    bool done = true;
-    for (size_t i = 0; done && i < source->tokens; i++) {
-        done = link_one(&linker, (uint32_t)i);
-    }
-    free(linker.open);
-    return done;
 }

@@ -4,12 +4,20 @@
 #include "parser/parser.h"
 #include "parser/source.h"
 
-/* Fills the block_link of each #if, #else, #while, #break, #end ... of a text,
- * so that dead branches and loops are jumps. A directive that is out of place
- * becomes a TOK_BAD. False: no memory, reported. */
-bool block_link(struct parser *parser, struct source *source);
+struct open_block;
 
-/* Whether a directive opens a block that #end closes. */
-bool block_opens(int kind);
+/* Blocks of a text that are open where it is read to. Zero to begin with; the
+ * caller frees `open`. */
+struct linker {
+    struct open_block *open;
+    size_t count, room;
+};
+
+/* Fills the block_link of token[index] and of those it belongs to, all of
+ * which are in the array, so that dead branches and loops are jumps. A
+ * directive that is out of place becomes a TOK_BAD. False: no memory,
+ * reported. */
+bool block_link(struct linker *linker, struct parser *parser,
+                struct token *token, uint32_t index);
 
 #endif

@@ -10,12 +10,12 @@ static const double CLOSE = 1e-10; /* POV-Ray's bound for equality    */
 
 static struct token *token_at(const struct expander *expander, uint32_t index)
 {
-    return &expand_frame(expander)->source->token[index];
+    return &expand_frame(expander)->cursor.chunk->token[index];
 }
 
 static void jump(struct expander *expander, uint32_t index)
 {
-    expand_frame(expander)->next = index;
+    cursor_jump(&expand_frame(expander)->cursor, index);
 }
 
 bool branch_is_closed(struct expander *expander, uint32_t opener)
@@ -175,7 +175,7 @@ static bool finish_for(struct expander *expander, const struct pending *pending)
                                           pending->branch.name);
     struct loop loop = {.opener = pending->branch.opener,
                         .name = pending->branch.name,
-                        .body = (uint32_t)expand_frame(expander)->next,
+                        .body = (uint32_t)expand_frame(expander)->cursor.next,
                         .end = bound[1],
                         .step = bound[2]};
     if (!symbol) {
@@ -380,7 +380,7 @@ static bool run_opener(struct expander *expander, const struct token *token,
 
 bool branch_run(struct expander *expander, const struct token *token)
 {
-    uint32_t index = (uint32_t)expand_frame(expander)->next - 1;
+    uint32_t index = (uint32_t)expand_frame(expander)->cursor.next - 1;
     switch (token->kind) {
     case TOK_HASH_ELSE:
     case TOK_HASH_ELSEIF:

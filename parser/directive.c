@@ -181,9 +181,9 @@ static bool include(struct expander *expander, const struct pending *pending)
                            "files are included deeper than %d", most);
     }
     struct frame frame = {.called = pending->at};
-    frame.source = source_open(parser, expander->place,
-                               expander->result.string);
-    return frame.source &&
+    struct source *source = source_open(parser, expander->place,
+                                        expander->result.string);
+    return source && reader_open(parser, source, &frame.cursor) &&
            (symbols_enter(&parser->symbols) || report_no_memory(parser)) &&
            expand_enter(expander, &frame);
 }
@@ -244,7 +244,7 @@ bool directive_run_bare(struct expander *expander, const struct token *token)
             directive.kind = bare[i].kind;
             parser_warn(expander->parser, token_location(token),
                         "'%s' should have a '#' before it", bare[i].word);
-            expand_frame(expander)->next++;
+            expand_skip(expander);
             return directive_run(expander, &directive);
         }
     }

@@ -1,5 +1,7 @@
 #include "parser/eval.h"
+#include "parser/build.h"
 #include "parser/builtin.h"
+#include "parser/expander.h"
 #include "parser/formula.h"
 #include "parser/grammar.h"
 #include "parser/report.h"
@@ -226,6 +228,19 @@ struct value eval_call(struct parser *parser, const struct name *function,
     return !parser->failed ? result
            : string        ? value_string("", 0)
                            : value_float(0);
+}
+
+void eval_data(struct parser *parser, struct data_run run, struct location at)
+{
+    const char *start = run.text, *next;
+    struct location here = at;
+    struct value item;
+    while (!parser->failed && (next = data_item(&run, &item))) {
+        here.offset = at.offset + (uint32_t)(run.text - start);
+        build_argument(parser, &item, here);
+        expander_spend(parser, 2 * item.terms, here);
+        run.text = next;
+    }
 }
 
 /* ---- colors ------------------------------------------------------------ */

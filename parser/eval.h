@@ -2,6 +2,7 @@
  * and then gives a harmless value. */
 #ifndef PARSER_EVAL_H
 #define PARSER_EVAL_H
+#include "parser/data.h"
 #include "parser/parser.h"
 
 /* Some terms of a color: bit i of `given` tells that v[i] is set. */
@@ -36,6 +37,10 @@ struct value eval_components(struct parser *parser, int count,
                              struct location at);
 struct value eval_call(struct parser *parser, const struct name *function,
                        int count, struct location at);
+
+/* Gives the items of a run to the open statement, one by one. */
+void eval_data(struct parser *parser, struct data_run run,
+               struct location at);
 
 /* Colors. `rgb value` and its like by the word; `color value`; `red value`
  * and its like by the term; a color with others of its terms set. */

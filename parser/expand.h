@@ -2,15 +2,14 @@
  * directive.c, branch.c and macro.c. */
 #ifndef PARSER_EXPAND_H
 #define PARSER_EXPAND_H
-#include "parser/block.h"
 #include "parser/expander.h"
 #include "parser/grammar.h"
+#include "parser/reader.h"
 #include "parser/source.h"
 
 /* What tokens are read from: a text, or a macro's body within one. */
 struct frame {
-    struct source *source;
-    size_t next;                /* index of the next token                 */
+    struct cursor cursor;
     struct macro *macro;        /* NULL: a text                            */
     struct location called;     /* of the #include or the macro's name     */
     size_t loops;               /* open when the frame began               */
@@ -30,7 +29,7 @@ struct macro {
     struct name *name;
     struct name **parameter;
     int parameters;
-    struct source *source;
+    struct chunk *chunk;
     size_t define;              /* its #macro                              */
     size_t body;                /* its first token                         */
 };
@@ -70,7 +69,7 @@ struct pending {
     struct scene_yypstate *state;
     struct location at;         /* of the directive or the macro's name    */
     size_t frames;              /* open when it began                      */
-    size_t start;               /* token of the frame where it began       */
+    size_t start, passed;       /* of the frame's cursor when it began     */
     size_t depth;               /* brackets that are open in it            */
     bool open_ended;            /* ends where no token fits any more       */
     union {
@@ -134,8 +133,12 @@ static inline struct frame *expand_frame(const struct expander *expander)
 /* The next token of the innermost frame, not expanded. */
 static inline struct token *expand_peek(const struct expander *expander)
 {
-    struct frame *frame = expand_frame(expander);
-    return &frame->source->token[frame->next];
+    return cursor_peek(&expand_frame(expander)->cursor);
+}
+
+static inline void expand_skip(const struct expander *expander)
+{
+    cursor_skip(&expand_frame(expander)->cursor);
 }
 
 /* Asks now and then whether to go on: of the clock and of the caller. */

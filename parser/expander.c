@@ -44,7 +44,9 @@ bool expand_enter(struct expander *expander, const struct frame *frame)
 /* At the end of a text that was included. */
 static void leave_text(struct expander *expander)
 {
-    expander->loops = expand_frame(expander)->loops;
+    struct frame *frame = expand_frame(expander);
+    reader_close(expander->parser, &frame->cursor);
+    expander->loops = frame->loops;
     expander->frames--;
     expander->texts--;
     symbols_leave(&expander->parser->symbols);
@@ -118,7 +120,8 @@ struct pending *expand_begin(struct expander *expander, int mode, enum use use,
                                 .state = state,
                                 .at = at,
                                 .frames = expander->frames,
-                                .start = expand_frame(expander)->next,
+                                .start = expand_frame(expander)->cursor.next,
+                                .passed = expand_frame(expander)->cursor.passed,
                                 .open_ended = mode == TOK_MODE_VALUE};
     SCENE_YYSTYPE none = {.count = 0};
     scene_yypush_parse(state, mode, &none, &at, parser);
@@ -194,6 +197,12 @@ static bool count_token(struct expander *expander, struct location at)
                            (unsigned long long)most);
     }
     return expand_tick(expander, at);
+}
+
+void expander_spend(struct parser *parser, int tokens, struct location at)
+{
+    parser->expander->tokens += (uint64_t)tokens - 1;
+    count_token(parser->expander, at);
 }
 
 static void count_brackets(struct pending *pending, int kind)
@@ -307,14 +316,14 @@ static bool run_name(struct expander *expander, const struct token *token)
     struct location at = token_location(token);
     if (expander->want_name) {
         expander->want_name = false;
-        expand_frame(expander)->next++;
+        expand_skip(expander);
         return push_word(expander, TOK_IDENTIFIER, token);
     }
     if (!value && !token->name->keyword) {
         report_undeclared(expander->parser, at, token->name);
         return false;
     }
-    expand_frame(expander)->next++;
+    expand_skip(expander);
     directive_used(expander, token);
     if (!value) {
         return push_word(expander, token->name->keyword->kind, token);
@@ -333,7 +342,7 @@ bool expand_take(struct expander *expander, int kind)
     if (expander->held || expand_peek(expander)->kind != kind) {
         return false;
     }
-    expand_frame(expander)->next++;
+    expand_skip(expander);
     return true;
 }
 
@@ -404,6 +413,7 @@ static bool leaves_value(const struct expander *expander,
     case TOK_HASH_RANGE:
     case TOK_HASH_BREAK:
         return expander->frames == pending->frames &&
+               expand_frame(expander)->cursor.passed == pending->passed &&
                token->block.pair < pending->start;
     default:
         return false;
@@ -516,7 +526,7 @@ static bool run_token(struct expander *expander)
     case TOK_UNSUPPORTED:
         return directive_run_bare(expander, token);
     }
-    expand_frame(expander)->next++;
+    expand_skip(expander);
     switch (token->kind) {
     case TOK_NUMBER:
         value = value_float(token->number);
@@ -535,9 +545,32 @@ static bool run_token(struct expander *expander)
     return push(expander, token->kind, &meaning, token_location(token));
 }
 
+/* A run of plain data as a whole, where the grammar takes one. */
+static struct token *peek_run(const struct expander *expander,
+                              const struct pending *pending)
+{
+    struct token *run = expander->held
+                            ? NULL
+                            : cursor_run(&expand_frame(expander)->cursor);
+    return run && grammar_accepts(pending->state, TOK_DATA) ? run : NULL;
+}
+
+static bool push_run(struct expander *expander, const struct token *run)
+{
+    struct cursor *cursor = &expand_frame(expander)->cursor;
+    const char *text = cursor->chunk->text + run->offset;
+    SCENE_YYSTYPE meaning = {.data = {text, text + run->length}};
+    cursor_jump(cursor, cursor->next + 1);
+    return push(expander, TOK_DATA, &meaning, token_location(run));
+}
+
 static bool step(struct expander *expander)
 {
     const struct pending *pending = innermost(expander);
+    const struct token *run = peek_run(expander, pending);
+    if (run) {
+        return push_run(expander, run);
+    }
     if (pending->open_ended && pending->depth == 0 &&
         value_ends(expander, pending)) {
         return push_end(expander);
@@ -560,8 +593,10 @@ static void release(struct expander *expander)
 static bool enter_scene(struct expander *expander)
 {
     struct parser *parser = expander->parser;
-    struct frame scene = {.source = source_open_scene(parser)};
-    if (!scene.source || !expand_enter(expander, &scene) ||
+    struct frame scene = {.macro = NULL}, header = scene;
+    struct source *source = source_open_scene(parser);
+    if (!source || !reader_open(parser, source, &scene.cursor) ||
+        !expand_enter(expander, &scene) ||
         !expand_begin(expander, TOK_MODE_SCENE, USE_NONE,
                       (struct location){0})) {
         return false;
@@ -569,10 +604,8 @@ static bool enter_scene(struct expander *expander)
     if (!parser->in->header) {
         return true;
     }
-    struct frame header = {.source = source_open_path(parser,
-                                                      (struct location){0},
-                                                      parser->in->header)};
-    return header.source &&
+    source = source_open_path(parser, (struct location){0}, parser->in->header);
+    return source && reader_open(parser, source, &header.cursor) &&
            (symbols_enter(&parser->symbols) || report_no_memory(parser)) &&
            expand_enter(expander, &header);
 }

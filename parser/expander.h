@@ -22,6 +22,9 @@ void expander_want_name(struct parser *parser, bool wanted);
 /* The directive under way, for diagnostics without a better place. */
 struct location expander_place(const struct parser *parser);
 
+/* Counts tokens that were not pushed one by one; over a limit, an error. */
+void expander_spend(struct parser *parser, int tokens, struct location at);
+
 /* How many tokens were pushed so far. */
 uint64_t expander_tokens(const struct parser *parser);
 

@@ -54,6 +54,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
     struct name *name;
     struct color color;
     int count;
+    struct data_run data;
 }
 
 %token END 0 "the end of the text"
@@ -61,7 +62,8 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 /* Tokens of the expander's own making. */
 %token MODE_SCENE MODE_VALUE MODE_STRING MODE_CONDITION MODE_FLOATS
 %token MODE_INDEX MODE_DEFAULT
-%token BAD "text"
+%token BAD "text" MORE
+%token <data> DATA "numbers"
 %token <name> UNSUPPORTED "word"
 
 /* Directives: they never reach the grammar. */
@@ -487,6 +489,8 @@ contents:
 content:
     expr %prec LOW
         { build_argument(parser, &$1, @1); }
+  | DATA
+        { eval_data(parser, $1, @1); }
   | string
         { build_argument(parser, &$1, @1); }
   | WORD

@@ -60,19 +60,19 @@ static bool is_defined(const struct expander *expander, const struct name *name,
 {
     const struct value *value = symbols_find(name);
     return value && value->kind == VALUE_MACRO &&
-           value->macro->source == expand_frame(expander)->source &&
+           value->macro->chunk == expand_frame(expander)->cursor.chunk &&
            value->macro->define == at;
 }
 
 bool macro_define(struct expander *expander)
 {
     struct parser *parser = expander->parser;
-    struct frame *frame = expand_frame(expander);
-    uint32_t opener = (uint32_t)frame->next - 1;
+    struct cursor *cursor = &expand_frame(expander)->cursor;
+    uint32_t opener = (uint32_t)cursor->next - 1;
     struct name *name = branch_is_closed(expander, opener)
                             ? need_free_name(expander)
                             : NULL;
-    size_t end = frame->source->token[opener].block.pair;
+    size_t end = cursor->chunk->token[opener].block.pair;
     if (!name) {
         return false;
     }
@@ -86,13 +86,14 @@ bool macro_define(struct expander *expander)
             return report_no_memory(parser);
         }
         macro->name = name;
-        macro->source = frame->source;
+        macro->chunk = cursor->chunk;
+        macro->chunk->kept = true;
         macro->define = opener;
-        macro->body = frame->next;
+        macro->body = cursor->next;
         symbol_value(symbol)->kind = VALUE_MACRO;
         symbol_value(symbol)->macro = macro;
     }
-    frame->next = end + 1;
+    cursor_jump(cursor, end + 1);
     return true;
 }
 
@@ -180,10 +181,10 @@ static bool enter(struct expander *expander)
         return parser_fail(parser, BRUME_ERR_LIMIT, call.at, NULL,
                            "macros are called deeper than %d", most);
     }
-    struct frame frame = {.source = macro->source,
-                          .next = macro->body,
-                          .macro = macro,
-                          .called = call.at};
+    struct frame frame = {
+        .cursor = {.chunk = macro->chunk, .next = macro->body},
+        .macro = macro,
+        .called = call.at};
     expander->calls--;
     expander->actuals = call.first;
     return bind(expander, &call) && expand_enter(expander, &frame);
@@ -227,7 +228,7 @@ static enum found find_reference(struct expander *expander)
     if (!value || token->name->symbol->constant || value->kind == VALUE_MACRO) {
         return FOUND_OTHER;
     }
-    expand_frame(expander)->next++;
+    expand_skip(expander);
     directive_used(expander, token);
     return add_actual(expander, value, value) ? FOUND_REFERENCE : FOUND_ERROR;
 }
@@ -261,7 +262,7 @@ static bool read_arguments(struct expander *expander)
             const struct token *token = expand_peek(expander);
             struct seek seek = {.item = symbols_find(token->name),
                                 .use = ITEM_ARGUMENT};
-            expand_frame(expander)->next++;
+            expand_skip(expander);
             return item_seek(expander, &seek, token_location(token));
         }
         enum found found = find_reference(expander);

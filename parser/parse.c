@@ -2,6 +2,7 @@
 #include "parser/build.h"
 #include "parser/expander.h"
 #include "parser/parser.h"
+#include "parser/reader.h"
 #include "parser/report.h"
 #include "parser/source.h"
 #include <string.h>
@@ -149,6 +150,7 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     }
     out->version = parser.version;
     build_release(&parser);
+    reader_release(&parser);
     source_release(&parser);
     arena_release(&parser.arena);
     return done;

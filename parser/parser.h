@@ -14,6 +14,8 @@
 #include "parser/value.h"
 
 struct source;
+struct reader;
+struct chunk;
 struct expander;
 struct macro;
 struct builder;
@@ -29,6 +31,9 @@ struct parser {
     struct source **source;         /* texts, by location.source           */
     size_t sources, source_room;
     size_t source_bytes;            /* held by texts and their tokens      */
+    struct reader *readers;         /* all of them                         */
+    struct chunk *chunks;           /* all of them                         */
+    struct chunk *spare_chunk;      /* those that may be overwritten       */
     struct expander *expander;
     struct value *stack;            /* numbers and strings of lists that the
                                        grammar has not closed yet          */

@@ -264,7 +264,7 @@ static bool begins_value(int kind)
         TOK_OBJECT_FUNCTION, TOK_TRACE, TOK_SERIES, TOK_FUNCTION_ID,
         TOK_SPLINE_ID,
         TOK_COLOR, TOK_RED, TOK_GREEN, TOK_BLUE, TOK_FILTER, TOK_TRANSMIT,
-        TOK_RGB, '(', '<', '+', '-', '!'
+        TOK_RGB, TOK_DATA, '(', '<', '+', '-', '!'
     };
     /* clang-format on */
     return contains(kinds, sizeof kinds / sizeof *kinds, kind);

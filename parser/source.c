@@ -1,6 +1,5 @@
 #include "parser/source.h"
 #include "lib/memory.h"
-#include "parser/lexer.h"
 #include "parser/report.h"
 #include "parser/utf8.h"
 #include <errno.h>
@@ -49,7 +48,6 @@ void source_release(struct parser *parser)
 {
     for (size_t i = 0; i < parser->sources; i++) {
         free(parser->source[i]->text);
-        free(parser->source[i]->token);
     }
     parser->sources = 0;
 }
@@ -67,17 +65,12 @@ static struct source *known(const struct parser *parser, const char *real)
 
 /* ---- reading ----------------------------------------------------------- */
 
-static bool over_memory(struct parser *parser, struct location at,
-                        const struct source *source)
+bool source_fits(struct parser *parser, struct location at)
 {
-    size_t bytes = parser->source_bytes + source->length +
-                   source->room * sizeof *source->token;
-    if (parser->limits.memory && bytes > parser->limits.memory) {
-        return !parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
-                            "the texts need more than %zu bytes of memory",
-                            parser->limits.memory);
-    }
-    return false;
+    size_t most = parser->limits.memory;
+    return !most || parser->source_bytes <= most ||
+           parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                       "the texts need more than %zu bytes of memory", most);
 }
 
 /* Room for `need` bytes and the padding. */
@@ -85,12 +78,14 @@ static bool make_room(struct parser *parser, struct location at,
                       struct source *source, size_t *room, size_t need)
 {
     struct brume_error err = {0};
+    size_t before = *room;
     char *text = memory_grow(source->text, room, need + PAD, 1, &err);
     if (!text) {
         return parser_relay(parser, at, &err);
     }
     source->text = text;
-    return !over_memory(parser, at, source);
+    parser->source_bytes += *room - before;
+    return source_fits(parser, at);
 }
 
 /* Reads up to the end, of pipes too. */
@@ -154,18 +149,6 @@ static bool copy_text(struct parser *parser, struct source *source)
     return true;
 }
 
-/* Turns what was read into tokens. */
-static struct source *finish(struct parser *parser, struct location at,
-                             struct source *source)
-{
-    if (!lexer_scan(parser, source) || over_memory(parser, at, source)) {
-        return NULL;
-    }
-    parser->source_bytes += source->length +
-                            source->room * sizeof *source->token;
-    return source;
-}
-
 static const char *resolve(struct parser *parser, const char *path)
 {
     char real[PATH_MAX];
@@ -180,8 +163,7 @@ struct source *source_open_scene(struct parser *parser)
         return source_open_path(parser, nowhere, parser->in->path);
     }
     struct source *source = add(parser, nowhere, parser->in->path);
-    return source && copy_text(parser, source) ? finish(parser, nowhere, source)
-                                               : NULL;
+    return source && copy_text(parser, source) ? source : NULL;
 }
 
 struct source *source_open(struct parser *parser, struct location at,
@@ -204,7 +186,7 @@ struct source *source_open_path(struct parser *parser, struct location at,
         return NULL;
     }
     source->real = real;
-    return finish(parser, at, source);
+    return source;
 }
 
 /* ---- places ------------------------------------------------------------ */

@@ -1,9 +1,10 @@
-/* source.h - the texts of a scene: read, and turned once into tokens. */
+/* source.h - the texts of a scene, each read once. */
 #ifndef PARSER_SOURCE_H
 #define PARSER_SOURCE_H
 #include "parser/parser.h"
 
-/* A text and its tokens, of which the last is TOK_END. */
+struct chunk;
+
 struct source {
     uint32_t id;            /* index in the parser's table of texts        */
     const char *name;       /* as diagnostics print it                     */
@@ -11,8 +12,7 @@ struct source {
     const char *real;       /* resolved path; NULL: not read from a file   */
     char *text;
     size_t length;
-    struct token *token;
-    size_t tokens, room;
+    struct chunk *whole;    /* all its tokens, or NULL: see reader.h       */
 };
 
 /* The scene itself. NULL: could not be read, reported. */
@@ -23,8 +23,10 @@ struct source *source_open_path(struct parser *parser, struct location at,
 /* A text that #include names: it is sought, and must be permitted. */
 struct source *source_open(struct parser *parser, struct location at,
                            struct string name);
-/* Frees texts and tokens. */
 void source_release(struct parser *parser);
+
+/* False: texts and tokens need more memory than they may, reported. */
+bool source_fits(struct parser *parser, struct location at);
 
 /* A line and column of a text, both from 1; columns count characters. */
 struct source_point {

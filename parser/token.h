@@ -33,6 +33,7 @@ struct token {
         struct name *name;              /* words, TOK_DOT, TOK_UNSUPPORTED */
         const char *error;              /* TOK_BAD: what is wrong with it  */
         struct block_link block;        /* directives of blocks            */
+        uint32_t length;                /* TOK_DATA: bytes of the text     */
     };
 };
 

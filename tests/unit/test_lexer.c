@@ -5,10 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
-#include "parser/block.h"
 #include "parser/builtin.h"
+#include "parser/data.h"
 #include "parser/grammar.h"
-#include "parser/lexer.h"
+#include "parser/reader.h"
 #include "parser/utf8.h"
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +21,9 @@ struct fixture {
     struct diag diag;
     struct parser parser;
     struct source source, *table[1];
+    struct cursor cursor;
+    const struct token *token;
+    size_t tokens;
 };
 
 static void scan(struct fixture *f, const char *text)
@@ -41,13 +44,15 @@ static void scan(struct fixture *f, const char *text)
                                 .text = calloc(1, length + 2),
                                 .length = length};
     memcpy(f->source.text, text, length);
-    assert_true(lexer_scan(&f->parser, &f->source));
+    assert_true(reader_open(&f->parser, &f->source, &f->cursor));
+    f->token = f->cursor.chunk->token;
+    f->tokens = f->cursor.chunk->tokens;
 }
 
 static void release(struct fixture *f)
 {
+    reader_release(&f->parser);
     free(f->source.text);
-    free(f->source.token);
     arena_release(&f->parser.arena);
     diag_release(&f->diag);
 }
@@ -56,11 +61,11 @@ static void assert_kinds(const char *text, const int *kind, size_t count)
 {
     struct fixture f;
     scan(&f, text);
-    assert_int_equal(f.source.tokens, count + 1);
+    assert_int_equal(f.tokens, count + 1);
     for (size_t i = 0; i < count; i++) {
-        assert_int_equal(f.source.token[i].kind, kind[i]);
+        assert_int_equal(f.token[i].kind, kind[i]);
     }
-    assert_int_equal(f.source.token[count].kind, TOK_END);
+    assert_int_equal(f.token[count].kind, TOK_END);
     release(&f);
 }
 
@@ -102,10 +107,10 @@ static void test_numbers(void **state)
     struct fixture f;
     static const double want[] = {1, 1, 0.5, 1.5, 1500, 0.025, 7, 1.5, 0.5};
     scan(&f, "1 1. .5 1.5 1.5e3 2.5E-2 007 1.5.5");
-    assert_int_equal(f.source.tokens, 10);
+    assert_int_equal(f.tokens, 10);
     for (size_t i = 0; i < 9; i++) {
-        assert_int_equal(f.source.token[i].kind, TOK_NUMBER);
-        assert_true(f.source.token[i].number == want[i]);
+        assert_int_equal(f.token[i].kind, TOK_NUMBER);
+        assert_true(f.token[i].number == want[i]);
     }
     release(&f);
 }
@@ -115,9 +120,9 @@ static void test_strings(void **state)
     (void)state;
     struct fixture f;
     scan(&f, "\"a\\tb\\0c\\u00e9\"");
-    assert_int_equal(f.source.token[0].kind, TOK_STRING);
-    assert_int_equal(f.source.token[0].string->length, 7);
-    assert_memory_equal(f.source.token[0].string->text, "a\tb\0c\xC3\xA9", 8);
+    assert_int_equal(f.token[0].kind, TOK_STRING);
+    assert_int_equal(f.token[0].string->length, 7);
+    assert_memory_equal(f.token[0].string->text, "a\tb\0c\xC3\xA9", 8);
     release(&f);
 }
 
@@ -128,8 +133,7 @@ static void test_places(void **state)
     scan(&f, "a /* \n */ b\n\"\xC3\xA9\" c  ");
     static const int line[] = {1, 2, 3, 3}, column[] = {1, 5, 1, 5};
     for (size_t i = 0; i < 4; i++) {
-        struct source_point point = source_locate(&f.source,
-                                                  f.source.token[i].offset);
+        struct source_point point = source_locate(&f.source, f.token[i].offset);
         assert_int_equal(point.line, line[i]);
         assert_int_equal(point.column, column[i]);
     }
@@ -143,7 +147,7 @@ static void test_blocks_are_linked(void **state)
     (void)state;
     struct fixture f;
     scan(&f, "#while #if #break #elseif #else #if #end #end #end");
-    const struct token *token = f.source.token;
+    const struct token *token = f.token;
     assert_int_equal(token[0].block.next, 8);
     assert_int_equal(token[0].block.pair, 8);
     assert_int_equal(token[1].block.next, 3);
@@ -167,7 +171,87 @@ static void test_misplaced_directives_are_bad(void **state)
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         struct fixture f;
         scan(&f, text[i]);
-        assert_int_equal(f.source.token[f.source.tokens - 2].kind, TOK_BAD);
+        assert_int_equal(f.token[f.tokens - 2].kind, TOK_BAD);
+        release(&f);
+    }
+}
+
+/* ---- runs of data ------------------------------------------------------ */
+
+static void test_runs_of_data(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t length;
+    } runs[] = {{"<1,2,3>, <4,5,6>}", 16},
+                {" 10, -2.5e-3 , +.5 }", 18},
+                {"<1,2,3>, <4,5,6>*2 }", 7},
+                {"<1,2,3>, 4 5}", 7},
+                {"<1,2,3>, <4,5,6>, x}", 16},
+                {"<1,2,3> + x, 1}", 0},
+                {"1, 2}", 0},
+                {"<1>, <2>}", 0},
+                {"<1,2,3,4,5,6>, 1, 2}", 0},
+                {"<1,2,3,>, 1, 2}", 0},
+                {"100000, 1e}", 6},
+                {"100000, 1.5.x}", 6},
+                {"100000, 1.5f}", 6},
+                {"100000, .}", 6},
+                {"100000, - 5}", 6},
+                {"100000", 0}};
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+        assert_int_equal(data_measure(runs[i].text), runs[i].length);
+    }
+}
+
+/* The same tokens as if each were scanned by itself. */
+static void test_runs_are_tokens(void **state)
+{
+    (void)state;
+    static const int kind[] = {
+        TOK_IDENTIFIER, '{', '<', '-',        TOK_NUMBER, ',',
+        TOK_NUMBER,     '>', ',', TOK_NUMBER, '}',        TOK_END};
+    static const uint32_t offset[] = {0, 2, 4, 5, 6, 7, 8, 10, 11, 13, 16, 17};
+    struct fixture f;
+    scan(&f, "a { <-1,2.>, 1e3}");
+    assert_int_equal(f.token[2].kind, TOK_DATA);
+    for (size_t i = 0; i < sizeof kind / sizeof *kind; i++) {
+        const struct token *token = cursor_peek(&f.cursor);
+        assert_ptr_equal(cursor_peek(&f.cursor), token);
+        assert_int_equal(token->kind, kind[i]);
+        assert_int_equal(token->offset, offset[i]);
+        cursor_skip(&f.cursor);
+    }
+    release(&f);
+}
+
+/* ---- chunks ------------------------------------------------------------ */
+
+/* What is behind is forgotten, unless a block holds it together. */
+static void test_chunks(void **state)
+{
+    (void)state;
+    enum { PAIRS = 300000 };
+    static char text[2 * PAIRS + 20];
+    for (int blocks = 0; blocks < 2; blocks++) {
+        char *c = text + sprintf(text, "%s", blocks ? "#if " : "");
+        for (int i = 0; i < PAIRS; i++) {
+            *c++ = 'a';
+            *c++ = ';';
+        }
+        strcpy(c, blocks ? " #end" : "");
+        struct fixture f;
+        size_t count = 0;
+        scan(&f, text);
+        while (cursor_peek(&f.cursor)->kind != TOK_END) {
+            cursor_skip(&f.cursor);
+            count++;
+        }
+        assert_int_equal(count, 2 * PAIRS + 2 * blocks);
+        assert_int_equal(f.tokens < PAIRS, !blocks);
+        assert_int_equal(f.cursor.passed > 1, !blocks);
+        assert_null(f.parser.chunks->next);
         release(&f);
     }
 }
@@ -234,6 +318,9 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_blocks_are_linked),
         cmocka_unit_test(test_misplaced_directives_are_bad),
+        cmocka_unit_test(test_runs_of_data),
+        cmocka_unit_test(test_runs_are_tokens),
+        cmocka_unit_test(test_chunks),
         cmocka_unit_test(test_words_are_sorted),
         cmocka_unit_test(test_functions_are_there),
         cmocka_unit_test(test_characters)};
