@@ -7,6 +7,7 @@
 #define CORE_SOLID_H
 #include <stdbool.h>
 #include <stddef.h>
+#include "core/brume.h"
 #include "lib/arena.h"
 #include "lib/error.h"
 
@@ -55,5 +56,23 @@ bool solid_ovus(struct arena *arena, double bottom, double top,
 bool solid_blob(struct arena *arena, double threshold,
                 const double *components, size_t count, struct solid *solid,
                 struct brume_error *err);
+
+/* Points of x and z; sub-shapes one after the other, each closed by its first
+ * point on the curve (linear ones close themselves at the end). The heights
+ * come in any order. */
+bool solid_prism(struct arena *arena, enum brume_curve curve, bool conic,
+                 bool open, double height_1, double height_2,
+                 const double *points, size_t count, struct solid *solid,
+                 struct brume_error *err);
+
+/* Points of distance from the axis (0 or more on the curve) and height. */
+bool solid_lathe(struct arena *arena, enum brume_curve curve,
+                 const double *points, size_t count, struct solid *solid,
+                 struct brume_error *err);
+
+/* Points of radius and height, 4 or more; the first and the last only give
+ * slopes. Between them radii are 0 or more and heights rise. */
+bool solid_sor(struct arena *arena, bool open, const double *points,
+               size_t count, struct solid *solid, struct brume_error *err);
 
 #endif

@@ -123,6 +123,38 @@ def many(count):
     return numbers
 
 
+CURVES = ("linear_spline", "quadratic_spline", "cubic_spline",
+          "bezier_spline", "b_spline")
+LINEAR, QUADRATIC, CUBIC, BEZIER, B_SPLINE = range(5)
+
+
+def prism(n):
+    curve, conic, is_open, low, high, *points = n
+    return (f"prism {{ {CURVES[curve]} {'conic_sweep' if conic else ''} "
+            f"{low}, {high}, {len(points) // 2}, "
+            f"{', '.join(vectors(points, 2))} {'open' if is_open else ''} "
+            f"sturm }}")
+
+
+def lathe(n):
+    points = n[1:]
+    return (f"lathe {{ {CURVES[n[0]]} {len(points) // 2}, "
+            f"{', '.join(vectors(points, 2))} sturm }}")
+
+
+def sor(n):
+    points = n[1:]
+    return (f"sor {{ {len(points) // 2}, {', '.join(vectors(points, 2))} "
+            f"{'open' if n[0] else ''} sturm }}")
+
+
+def off(*points):
+    """With the corner in the origin moved away: rays are aimed there."""
+    return [round(x - 0.07, 6) for x in points]
+
+
+FRAME = off(0, 0, 2, 0.1, 1.9, 2, -0.1, 2, 0, 0,
+         0.5, 0.5, 1.5, 0.4, 1.4, 1.6, 0.5, 0.5)
 KINDS = {
     "torus": (torus, [
         (1, 0.25), (1, 1), (3, 2.5), (1, 0.01)], 1.4),
@@ -155,6 +187,36 @@ KINDS = {
         (0.5, *ball(1, 1.3, (0.2, 0, 0), MAPS[1]),
          *rod(1.2, 0.7, (-1, -1, -0.4), (1, 1, 0.3), MAPS[2])),
         (0.3, *many(40))], 1.5),
+    "prism": (prism, [
+        (LINEAR, 0, 0, -0.5, 1, *FRAME),
+        (LINEAR, 0, 0, 1, 0, *off(0, 0, 1, 0.3, 0.2, 1.1)),
+        (QUADRATIC, 0, 0, 0, 1,
+         *off(-1, -1, 0, 0, 1, 0.2, 1, 1.5, 0, 1, 0, 0)),
+        (CUBIC, 0, 0, 0, 1,
+         *off(-1, -1, 0, 0, 1.4, 0.1, 1, 1.5, 0, 1, 0, 0, 1, 1)),
+        (CUBIC, 0, 0, 0.2, 1,
+         *off(-1, -1, 0, 0, 1.4, 0.1, 1, 1.5, 0, 1, 0, 0, 1, 1,
+              0.2, -0.3, 0.3, 0.3, 0.8, 0.4, 0.5, 0.9, 0.3, 0.3, 0.7, 0.5)),
+        (BEZIER, 0, 0, 0, 1, *off(0, 0, 0.5, -0.7, 1, -0.7, 1.5, 0,
+                                  1.5, 0, 1.2, 1.9, 0.5, 1.9, 0, 0)),
+        (LINEAR, 1, 0, 0.3, 1.4, -0.5, -0.6, 0.7, -0.5, 0.4, 0.6, -0.5, 0.4),
+        (LINEAR, 1, 0, -0.6, 1.2, -0.5, -0.6, 0.7, -0.5, 0.4, 0.6, -0.5, 0.4),
+        (CUBIC, 1, 0, -1.3, -0.2, -0.8, -0.8, -0.5, -0.5, 0.6, -0.5, 0.7, 0.6,
+         -0.6, 0.5, -0.5, -0.5, 0.4, -0.6)], 1.5),
+    "lathe": (lathe, [
+        (LINEAR, 0.4, 0, 1, 0.1, 1.1, 1, 0.5, 1, 0.4, 0),
+        (LINEAR, 0, 0, 1, 0.1, 0.3, 1, 0, 1.2),
+        (QUADRATIC, 1, -0.5, 0, 0.1, 1, 0.3, 0.6, 1, 0, 1.3),
+        (CUBIC, 0.4, 0, 0.3, 0.8, 0.8, 1.2, 1.2, 0.6, 0.8, -0.1, 0.3, 0.8,
+         0.8, 1.2),
+        (CUBIC, 1, -1, 0, -0.6, 1.2, 0, 0.4, 0.8, 0, 1.1, -1, 1.4),
+        (BEZIER, 0, -1, 1.2, -1, 1.3, 0.2, 0.6, 0.4,
+         0.6, 0.4, 0.2, 0.6, 0.5, 1.2, 0, 1.1)], 1.4),
+    "sor": (sor, [
+        (0, 0.5, -0.2, 0.8, 0, 1.2, 0.7, 0.3, 1.1, 0, 1.4),
+        (0, 0, 0, 0.118143, 0, 0.620253, 0.540084, 0.21097, 0.827004,
+         0.194093, 0.962025, 0.28692, 1, 0.468354, 1.033755),
+        (0, 1, -0.8, 0, -0.6, 1, 0.1, 0.7, 0.5, 0, 1.2, 1, 1.3)], 1.3),
     "ovus": (ovus, [
         (1, 0.5), (1, 1), (1, 0), (1, 1.7), (1, 2.5), (0.8, 0.1)], 1.5),
 }

@@ -4,9 +4,12 @@
 #define TESTS_SOLIDS_H
 #include "core/brume.h"
 #include "core/physics/solid_blob.h"
+#include "core/physics/solid_lathe.h"
 #include "core/physics/solid_ovus.h"
 #include "core/physics/solid_poly.h"
+#include "core/physics/solid_prism.h"
 #include "core/physics/solid_quadric.h"
+#include "core/physics/solid_sor.h"
 #include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 #include "core/solid.h"
@@ -20,6 +23,7 @@ struct solid_kind {
     dvec3 (*normal)(const double *data, dvec3 p, int part);
     bool (*inside)(const double *data, dvec3 p);
     double tolerance;       /* of POV-Ray's roots, for a size of 1          */
+    bool either;            /* POV-Ray's normals may point inward           */
 };
 
 #define SOLID_BUILD(name)                                                     \
@@ -64,16 +68,39 @@ SOLID_BUILD(blob)
                       solid, err);
 }
 
-#define SOLID_KIND(name, tolerance)                                           \
+/* Curve, conic, open, heights, then the points. */
+SOLID_BUILD(prism)
+{
+    return solid_prism(arena, (enum brume_curve)n[0], n[1] != 0, n[2] != 0,
+                       n[3], n[4], n + 5, (count - 5) / 2, solid, err);
+}
+
+/* Curve, then the points. */
+SOLID_BUILD(lathe)
+{
+    return solid_lathe(arena, (enum brume_curve)n[0], n + 1, (count - 1) / 2,
+                       solid, err);
+}
+
+/* Open, then the points. */
+SOLID_BUILD(sor)
+{
+    return solid_sor(arena, n[0] != 0, n + 1, (count - 1) / 2, solid, err);
+}
+
+#define SOLID_KIND(name, tolerance, either)                                   \
     {#name, build_##name, name##_roots, name##_normal, name##_inside,         \
-     tolerance}
+     tolerance, either}
 static const struct solid_kind solid_kinds[] = {
-    SOLID_KIND(torus, 1e-6),
-    SOLID_KIND(quadric, 1e-6),
-    SOLID_KIND(poly, 1e-6),
-    SOLID_KIND(superellipsoid, 1e-6),
-    SOLID_KIND(ovus, 1e-6),
-    SOLID_KIND(blob, 1e-5),
+    SOLID_KIND(torus, 1e-6, false),
+    SOLID_KIND(quadric, 1e-6, false),
+    SOLID_KIND(poly, 1e-6, false),
+    SOLID_KIND(superellipsoid, 1e-6, false),
+    SOLID_KIND(ovus, 1e-6, false),
+    SOLID_KIND(blob, 1e-5, false),
+    SOLID_KIND(prism, 1e-6, true),
+    SOLID_KIND(lathe, 1e-5, true),
+    SOLID_KIND(sor, 1e-6, false),
 };
 enum { SOLID_KINDS = sizeof solid_kinds / sizeof *solid_kinds };
 
