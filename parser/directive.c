@@ -5,8 +5,8 @@
 
 /* ---- #declare, #local, #undef ------------------------------------------ */
 
-static bool may_declare(struct expander *expander, const struct name *name,
-                        struct location at)
+bool directive_may_declare(struct expander *expander, const struct name *name,
+                           struct location at)
 {
     return !name->symbol || !name->symbol->constant ||
            parser_error(expander->parser, at,
@@ -24,13 +24,12 @@ static struct pending *begin_value(struct expander *expander,
                : NULL;
 }
 
-/* Takes a reserved word that has no token of its own. */
-static bool take_word(struct expander *expander, const char *word)
+bool directive_take_word(struct expander *expander, const char *word)
 {
     const struct token *token = expand_peek(expander);
-    return token->kind == TOK_UNSUPPORTED &&
+    return (token->kind == TOK_UNSUPPORTED || token->kind == TOK_WORD) &&
            strcmp(token->name->text, word) == 0 &&
-           expand_take(expander, TOK_UNSUPPORTED);
+           expand_take(expander, token->kind);
 }
 
 /* `deprecated once "text"`, of which all may be left out but the first. */
@@ -38,14 +37,14 @@ static bool read_deprecation(struct expander *expander,
                              struct deprecation **deprecated)
 {
     *deprecated = NULL;
-    if (!take_word(expander, "deprecated")) {
+    if (!directive_take_word(expander, "deprecated")) {
         return true;
     }
     *deprecated = parser_alloc(expander->parser, sizeof **deprecated);
     if (!*deprecated) {
         return false;
     }
-    (*deprecated)->once = take_word(expander, "once");
+    (*deprecated)->once = directive_take_word(expander, "once");
     const struct token *token = expand_peek(expander);
     if (expand_take(expander, TOK_STRING)) {
         (*deprecated)->text = *token->string;
@@ -78,7 +77,7 @@ static bool declare(struct expander *expander, const struct token *token)
     }
     struct location at = token_location(expand_peek(expander));
     struct name *name = expand_need_name(expander);
-    if (!name || !may_declare(expander, name, at)) {
+    if (!name || !directive_may_declare(expander, name, at)) {
         return false;
     }
     if (expand_peek(expander)->kind == '[') {
@@ -158,7 +157,7 @@ static bool undefine(struct expander *expander)
 {
     struct location at = token_location(expand_peek(expander));
     struct name *name = expand_need_name(expander);
-    if (!name || !may_declare(expander, name, at)) {
+    if (!name || !directive_may_declare(expander, name, at)) {
         return false;
     }
     if (!name->symbol) {
@@ -275,6 +274,11 @@ bool directive_run(struct expander *expander, const struct token *token)
         return expand_begin(expander, TOK_MODE_VALUE, USE_VERSION, at);
     case TOK_HASH_DEFAULT:
         return expand_begin(expander, TOK_MODE_DEFAULT, USE_DEFAULT, at);
+    case TOK_HASH_FOPEN:
+    case TOK_HASH_FCLOSE:
+    case TOK_HASH_READ:
+    case TOK_HASH_WRITE:
+        return fileio_run(expander, token);
     case TOK_HASH_ALONE:
         parser_warn(expander->parser, at, "'#' without a directive");
         return true;

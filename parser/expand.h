@@ -1,11 +1,12 @@
 /* expand.h - what the expander's files share. Private to expander.c,
- * directive.c, branch.c and macro.c. */
+ * directive.c, fileio.c, branch.c, macro.c and item.c. */
 #ifndef PARSER_EXPAND_H
 #define PARSER_EXPAND_H
 #include "parser/expander.h"
 #include "parser/grammar.h"
 #include "parser/reader.h"
 #include "parser/source.h"
+#include "parser/stream.h"
 
 /* What tokens are read from: a text, or a macro's body within one. */
 struct frame {
@@ -46,12 +47,13 @@ enum use {
     USE_DECLARE, USE_VERSION, USE_DEFAULT,
     USE_INCLUDE, USE_DEBUG, USE_WARNING, USE_ERROR,
     USE_IF, USE_ELSEIF, USE_WHILE, USE_SWITCH, USE_CASE, USE_RANGE, USE_FOR,
-    USE_INDEX, USE_ARGUMENT
+    USE_INDEX, USE_ARGUMENT, USE_FOPEN, USE_WRITE
 };
 
 /* What is done with an array's item once its last index is known. */
 enum item_use {
-    ITEM_TOKEN, ITEM_DECLARE, ITEM_DEFINED, ITEM_IFDEF, ITEM_ARGUMENT
+    ITEM_TOKEN, ITEM_DECLARE, ITEM_DEFINED, ITEM_IFDEF, ITEM_ARGUMENT,
+    ITEM_READ
 };
 
 /* An array's item being sought, index by index. */
@@ -60,7 +62,10 @@ struct seek {
     int dimension;              /* indices of this array known so far      */
     uint32_t offset;
     enum item_use use;
-    uint32_t opener;            /* ITEM_IFDEF                              */
+    union {
+        uint32_t opener;        /* ITEM_IFDEF                              */
+        struct value *file;     /* ITEM_READ                               */
+    };
 };
 
 /* A value being parsed by a parser of its own, inside of another one. */
@@ -80,6 +85,11 @@ struct pending {
             struct deprecation *deprecated;
         } target;
         struct seek seek;               /* USE_INDEX                       */
+        struct name *file;              /* USE_FOPEN                       */
+        struct {
+            struct value *file;         /* USE_WRITE                       */
+            enum stream_word word;
+        } write;
         struct {
             uint32_t opener;            /* USE_IF ... USE_FOR: its token   */
             struct name *name;          /* USE_FOR                         */
@@ -179,6 +189,20 @@ void directive_used(struct expander *expander, const struct token *token);
 bool directive_strict(const struct expander *expander);
 bool directive_declare_item(struct expander *expander, struct value *item,
                             struct location at);
+
+/* Whether a name may be declared: it is not built in. */
+bool directive_may_declare(struct expander *expander,
+                           const struct name *name, struct location at);
+/* Takes a reserved word that has no token of its own. */
+bool directive_take_word(struct expander *expander, const char *word);
+
+/* ---- fileio.c: #fopen, #fclose, #read, #write --------------------------- */
+
+bool fileio_run(struct expander *expander, const struct token *token);
+bool fileio_finish(struct expander *expander, const struct pending *pending);
+/* Goes on with a #read, whose next value goes to an item of an array. */
+bool fileio_item(struct expander *expander, const struct seek *seek,
+                 struct location at);
 
 /* ---- branch.c: blocks of directives ---- */
 

@@ -151,6 +151,9 @@ static bool finish(struct expander *expander)
         return true;
     case USE_INDEX:
         return item_finish(expander, &done);
+    case USE_FOPEN:
+    case USE_WRITE:
+        return fileio_finish(expander, &done);
     case USE_ARGUMENT:
         return macro_argument(expander, &expander->result, NULL);
     case USE_IF:
@@ -258,10 +261,10 @@ void expand_hold(struct expander *expander, const struct value *value,
 static int kind_of(const struct value *value)
 {
     static const uint16_t kinds[VALUE_OBJECT] = {
-        [VALUE_NONE] = TOK_IDENTIFIER,     [VALUE_STRING] = TOK_STRING_ID,
-        [VALUE_ARRAY] = TOK_ARRAY_ID,      [VALUE_MACRO] = TOK_MACRO_ID,
-        [VALUE_LIST] = TOK_VECTOR_ID,      [VALUE_FORMULA] = TOK_FLOAT_ID,
-        [VALUE_FUNCTION] = TOK_FUNCTION_ID};
+        [VALUE_NONE] = TOK_IDENTIFIER,      [VALUE_STRING] = TOK_STRING_ID,
+        [VALUE_ARRAY] = TOK_ARRAY_ID,       [VALUE_MACRO] = TOK_MACRO_ID,
+        [VALUE_LIST] = TOK_VECTOR_ID,       [VALUE_FORMULA] = TOK_FLOAT_ID,
+        [VALUE_FUNCTION] = TOK_FUNCTION_ID, [VALUE_FILE] = TOK_FILE_ID};
     if (value->kind == VALUE_NUMBER) {
         return value->terms == 1             ? TOK_FLOAT_ID
                : value->terms == VALUE_TERMS ? TOK_COLOR_ID

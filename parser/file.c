@@ -1,6 +1,6 @@
-/* file.c - where the files that a scene names are, and whether it may read
- * them. */
+/* file.c - where the files that a scene names are. */
 #include "parser/parser.h"
+#include "parser/permit.h"
 #include "parser/source.h"
 #include <errno.h>
 #include <limits.h>
@@ -22,57 +22,9 @@ struct search {
     size_t used;
 };
 
-static const char *folder_or_dot(const char *folder)
-{
-    return *folder ? folder : ".";
-}
-
 static const char *text_folder(const struct parser *parser, uint32_t source)
 {
     return source < parser->sources ? parser->source[source]->folder : "";
-}
-
-/* ---- permission -------------------------------------------------------- */
-
-/* `path` is resolved; `folder` is as the user wrote it. */
-static bool lies_in(const char *path, const char *folder)
-{
-    char real[PATH_MAX];
-    if (!realpath(folder_or_dot(folder), real)) {
-        return false;
-    }
-    size_t length = strlen(real);
-    if (strcmp(real, "/") == 0) {
-        return true;
-    }
-    return strncmp(path, real, length) == 0 && path[length] == '/';
-}
-
-static bool lies_in_any(const char *path, const char *const *folder,
-                        size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (lies_in(path, folder[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Texts may be read from the folders of texts that were permitted, and where
- * the user says. Links and `..` are resolved first. */
-static bool permitted(const struct search *search, const char *path)
-{
-    const struct parser *parser = search->parser;
-    const struct parse_input *in = parser->in;
-    char real[PATH_MAX];
-    if (search->purpose == PARSER_DATA) {
-        return true;
-    }
-    return realpath(path, real) &&
-           (lies_in(real, text_folder(parser, 0)) ||
-            lies_in_any(real, in->library, in->libraries) ||
-            lies_in_any(real, in->allow_read, in->allow_reads));
 }
 
 /* ---- search ------------------------------------------------------------ */
@@ -109,7 +61,8 @@ static void try_path(struct search *search, const char *folder,
              search->name.text, extension);
     if (!is_regular(path)) {
         note_tried(search, path);
-    } else if (permitted(search, path)) {
+    } else if (search->purpose == PARSER_DATA ||
+               permit_reads(search->parser, path)) {
         search->found = path;
     } else if (!search->denied) {
         search->denied = path;
@@ -148,6 +101,11 @@ static void try_all(struct search *search, const char *around)
     }
     for (size_t i = 0; i < in->allow_reads; i++) {
         try_folder(search, in->allow_read[i]);
+    }
+    /* What the scene wrote. */
+    bool wrote = in->written && in->written->count > 0;
+    for (size_t i = 0; wrote && i < in->allow_writes; i++) {
+        try_folder(search, in->allow_write[i]);
     }
     /* POV-Ray looks in the working folder; here that takes permission. */
     if (*scene && *around) {

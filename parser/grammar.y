@@ -75,6 +75,8 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token HASH_DECLARE "'#declare'" HASH_LOCAL "'#local'" HASH_UNDEF "'#undef'"
 %token HASH_INCLUDE "'#include'" HASH_VERSION "'#version'"
 %token HASH_DEFAULT "'#default'" HASH_ALONE "'#'"
+%token HASH_FOPEN "'#fopen'" HASH_FCLOSE "'#fclose'"
+%token HASH_READ "'#read'" HASH_WRITE "'#write'"
 %token HASH_DEBUG "'#debug'" HASH_WARNING "'#warning'" HASH_ERROR "'#error'"
 
 %token <value> NUMBER "number" STRING "string"
@@ -84,6 +86,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 %token <value> COLOR_ID "color identifier" STRING_ID "string identifier"
 %token <value> ARRAY_ID "array identifier" MACRO_ID "macro identifier"
 %token <value> NODE_ID "identifier of a statement"
+%token <value> FILE_ID "file identifier"
 %token <value> FUNCTION_ID "function identifier" SPLINE_ID "spline identifier"
 
 %token <name> NUMBER_FUNCTION "numeric function"

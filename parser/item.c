@@ -49,6 +49,8 @@ static bool found(struct expander *expander, const struct seek *seek,
     case ITEM_DEFINED:
     case ITEM_IFDEF:
         return use_defined(expander, seek, set, at);
+    case ITEM_READ:
+        return fileio_item(expander, seek, at);
     case ITEM_ARGUMENT:
         return set ? macro_item(expander, seek->item, at)
                    : parser_error(expander->parser, at,

@@ -528,8 +528,8 @@ const struct keyword directive_table[] = {
     {"elseif", TOK_HASH_ELSEIF, KEYWORD_RESERVED},
     {"end", TOK_HASH_END, KEYWORD_RESERVED},
     {"error", TOK_HASH_ERROR, KEYWORD_RESERVED},
-    {"fclose", TOK_UNSUPPORTED, KEYWORD_RESERVED},
-    {"fopen", TOK_UNSUPPORTED, KEYWORD_RESERVED},
+    {"fclose", TOK_HASH_FCLOSE, KEYWORD_RESERVED},
+    {"fopen", TOK_HASH_FOPEN, KEYWORD_RESERVED},
     {"for", TOK_HASH_FOR, KEYWORD_RESERVED},
     {"if", TOK_HASH_IF, KEYWORD_RESERVED},
     {"ifdef", TOK_HASH_IFDEF, KEYWORD_RESERVED},
@@ -540,7 +540,7 @@ const struct keyword directive_table[] = {
     {"max_intersections", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"max_trace_level", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"range", TOK_HASH_RANGE, KEYWORD_RESERVED},
-    {"read", TOK_UNSUPPORTED, KEYWORD_RESERVED},
+    {"read", TOK_HASH_READ, KEYWORD_RESERVED},
     {"render", TOK_HASH_DEBUG, KEYWORD_RESERVED},
     {"statistics", TOK_HASH_DEBUG, KEYWORD_RESERVED},
     {"switch", TOK_HASH_SWITCH, KEYWORD_RESERVED},
@@ -548,6 +548,6 @@ const struct keyword directive_table[] = {
     {"version", TOK_HASH_VERSION, KEYWORD_RESERVED},
     {"warning", TOK_HASH_WARNING, KEYWORD_RESERVED},
     {"while", TOK_HASH_WHILE, KEYWORD_RESERVED},
-    {"write", TOK_UNSUPPORTED, KEYWORD_RESERVED},
+    {"write", TOK_HASH_WRITE, KEYWORD_RESERVED},
 };
 const int directive_count = sizeof directive_table / sizeof *directive_table;

@@ -5,6 +5,8 @@
 #include "parser/reader.h"
 #include "parser/report.h"
 #include "parser/source.h"
+#include "parser/stream.h"
+#include <stdlib.h>
 #include <string.h>
 
 static const double VERSION_DEFAULT = 3.7;
@@ -123,7 +125,8 @@ static bool read_scene(struct parser *parser)
             report_no_memory(parser)) &&
            predeclare_floats(parser) && predeclare_vectors(parser) &&
            predeclare_given(parser) && build_begin(parser) &&
-           expander_run(parser) && build_finish(parser);
+           expander_run(parser) && stream_close_all(parser) &&
+           build_finish(parser);
 }
 
 static bool begin_scene(struct parser *parser)
@@ -150,8 +153,18 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     }
     out->version = parser.version;
     build_release(&parser);
+    stream_release(&parser);
     reader_release(&parser);
     source_release(&parser);
     arena_release(&parser.arena);
     return done;
+}
+
+void parse_written_release(struct parse_written *written)
+{
+    for (size_t i = 0; i < written->count; i++) {
+        free(written->path[i]);
+    }
+    free(written->path);
+    *written = (struct parse_written){0};
 }

@@ -42,6 +42,14 @@ struct parse_limits {
     double seconds;             /* wall time; none                         */
 };
 
+/* Files that the scenes of a film wrote, and may read too; to be released by
+ * the caller. Zero to begin with. */
+struct parse_written {
+    char **path;                /* resolved                                */
+    size_t count, room;
+};
+void parse_written_release(struct parse_written *written);
+
 struct parse_input {
     const char *path;           /* the scene; "-" if text is not a file's  */
     const char *text;           /* read already (standard input); or NULL  */
@@ -58,7 +66,8 @@ struct parse_input {
     /* Folders that #include may reach into besides those, and folders that
      * a scene may write to. */
     const char *const *allow_read, *const *allow_write;
-    size_t allow_reads, allow_writes;
+    size_t allow_reads, allow_writes;   /* the output folder is the last   */
+    struct parse_written *written;      /* or NULL                         */
     const struct parse_declare *declare;
     size_t declares;
     struct parse_ambient ambient;

@@ -33,6 +33,8 @@ struct parser {
     size_t source_bytes;            /* held by texts and their tokens      */
     struct reader *readers;         /* all of them                         */
     struct chunk *chunks;           /* all of them                         */
+    struct stream *streams;         /* that the scene opened               */
+    size_t written;                 /* bytes, to all of them               */
     struct chunk *spare_chunk;      /* those that may be overwritten       */
     struct expander *expander;
     struct value *stack;            /* numbers and strings of lists that the

@@ -155,7 +155,8 @@ bool reader_open(struct parser *parser, struct source *source,
     if (!cursor->chunk) {
         return false;
     }
-    if (cursor->chunk->token[cursor->chunk->tokens - 1].kind == TOK_END) {
+    int last = cursor->chunk->token[cursor->chunk->tokens - 1].kind;
+    if (last == TOK_END && !source->data) {
         cursor->chunk->kept = true;
         source->whole = cursor->chunk;
         reader_close(parser, cursor);

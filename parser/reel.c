@@ -139,6 +139,7 @@ static bool read_scene(struct reel *reel, int number,
         .allow_reads = options->allow_read.count,
         .allow_write = reel->allow_write,
         .allow_writes = reel->allow_writes,
+        .written = &reel->written,
         .declare = options->declare,
         .declares = options->declares,
         .limits = {.memory = options->memory},
@@ -369,5 +370,6 @@ enum brume_code reel_run(struct reel *reel, struct options *options,
 
 void reel_release(struct reel *reel)
 {
+    parse_written_release(&reel->written);
     arena_release(&reel->arena);
 }

@@ -46,6 +46,7 @@ struct reel {
     size_t length;
     const char *const *library, *const *allow_write;
     size_t libraries, allow_writes;
+    struct parse_written written;
     int region[4];
 };
 

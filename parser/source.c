@@ -1,5 +1,6 @@
 #include "parser/source.h"
 #include "lib/memory.h"
+#include "parser/permit.h"
 #include "parser/report.h"
 #include "parser/utf8.h"
 #include <errno.h>
@@ -75,16 +76,16 @@ bool source_fits(struct parser *parser, struct location at)
 
 /* Room for `need` bytes and the padding. */
 static bool make_room(struct parser *parser, struct location at,
-                      struct source *source, size_t *room, size_t need)
+                      struct source *source, size_t need)
 {
     struct brume_error err = {0};
-    size_t before = *room;
-    char *text = memory_grow(source->text, room, need + PAD, 1, &err);
+    size_t before = source->room;
+    char *text = memory_grow(source->text, &source->room, need + PAD, 1, &err);
     if (!text) {
         return parser_relay(parser, at, &err);
     }
     source->text = text;
-    parser->source_bytes += *room - before;
+    parser->source_bytes += source->room - before;
     return source_fits(parser, at);
 }
 
@@ -94,18 +95,17 @@ static bool read_all(struct parser *parser, struct location at,
 {
     enum { STEP = 65536 };
     struct stat status;
-    size_t room = 0;
     size_t expected = fstat(file, &status) == 0 && status.st_size > 0
                           ? (size_t)status.st_size
                           : STEP;
     ssize_t got;
     do {
         size_t need = source->length ? source->length + STEP : expected + 1;
-        if (!make_room(parser, at, source, &room, need)) {
+        if (!make_room(parser, at, source, need)) {
             return false;
         }
         got = read(file, source->text + source->length,
-                   room - PAD - source->length);
+                   source->room - PAD - source->length);
         if (got < 0 && errno != EINTR) {
             return parser_fail(parser, BRUME_ERR_FILE, at, NULL,
                                "'%s' could not be read: %s", source->name,
@@ -118,27 +118,19 @@ static bool read_all(struct parser *parser, struct location at,
 }
 
 static bool read_file(struct parser *parser, struct location at,
-                      struct source *source)
+                      struct source *source, int file)
 {
-    int file = open(source->name, O_RDONLY | O_CLOEXEC);
-    if (file < 0) {
-        int why = errno;
-        return parser_fail(parser,
-                           why == EACCES || why == EPERM ? BRUME_ERR_ACCESS
-                                                         : BRUME_ERR_FILE,
-                           at, NULL, "'%s' could not be opened: %s",
-                           source->name, strerror(why));
+    bool done = file >= 0 && read_all(parser, at, source, file);
+    if (file >= 0) {
+        close(file);
     }
-    bool done = read_all(parser, at, source, file);
-    close(file);
     return done;
 }
 
 static bool copy_text(struct parser *parser, struct source *source)
 {
-    size_t room = 0;
     struct location at = {0, source->id};
-    if (!make_room(parser, at, source, &room, parser->in->length)) {
+    if (!make_room(parser, at, source, parser->in->length)) {
         return false;
     }
     source->length = parser->in->length;
@@ -166,15 +158,9 @@ struct source *source_open_scene(struct parser *parser)
     return source && copy_text(parser, source) ? source : NULL;
 }
 
-struct source *source_open(struct parser *parser, struct location at,
-                           struct string name)
-{
-    const char *path = parser_find_file(parser, at, name, PARSER_TEXT);
-    return path ? source_open_path(parser, at, path) : NULL;
-}
-
-struct source *source_open_path(struct parser *parser, struct location at,
-                                const char *path)
+static struct source *open_named(
+    struct parser *parser, struct location at, const char *path,
+    int open_file(struct parser *parser, struct location at, const char *path))
 {
     const char *real = resolve(parser, path);
     struct source *source = real ? known(parser, real) : NULL;
@@ -182,11 +168,71 @@ struct source *source_open_path(struct parser *parser, struct location at,
         return source;
     }
     source = add(parser, at, path);
-    if (!source || !read_file(parser, at, source)) {
+    if (!source ||
+        !read_file(parser, at, source, open_file(parser, at, path))) {
         return NULL;
     }
     source->real = real;
     return source;
+}
+
+struct source *source_open(struct parser *parser, struct location at,
+                           struct string name)
+{
+    const char *path = parser_find_file(parser, at, name, PARSER_TEXT);
+    return path ? open_named(parser, at, path, permit_open_text) : NULL;
+}
+
+struct source *source_open_path(struct parser *parser, struct location at,
+                                const char *path)
+{
+    return open_named(parser, at, path, permit_open_any);
+}
+
+/* A source of data that is not read from any more, to be filled anew. */
+static struct source *spare(struct parser *parser, const char *path)
+{
+    for (size_t i = 0; i < parser->sources; i++) {
+        struct source *source = parser->source[i];
+        if (source->idle && strcmp(source->name, path) == 0) {
+            source->idle = false;
+            source->length = 0;
+            return source;
+        }
+    }
+    return NULL;
+}
+
+struct source *source_open_data(struct parser *parser, struct location at,
+                                struct string name)
+{
+    const char *path = parser_find_file(parser, at, name, PARSER_TEXT);
+    int file = path ? permit_open_text(parser, at, path) : -1;
+    struct source *source = file >= 0 ? spare(parser, path) : NULL;
+    if (file >= 0 && !source) {
+        source = add(parser, at, path);
+    }
+    if (!source) {
+        if (file >= 0) {
+            close(file);
+        }
+        return NULL;
+    }
+    source->data = true;
+    return read_file(parser, at, source, file) ? source : NULL;
+}
+
+void source_close_data(struct source *source)
+{
+    source->idle = true;
+}
+
+void source_forget(struct parser *parser, const char *real)
+{
+    struct source *source = known(parser, real);
+    if (source) {
+        source->real = NULL;
+    }
 }
 
 /* ---- places ------------------------------------------------------------ */

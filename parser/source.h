@@ -11,7 +11,9 @@ struct source {
     const char *folder;     /* of the text, "" for the working folder      */
     const char *real;       /* resolved path; NULL: not read from a file   */
     char *text;
-    size_t length;
+    size_t length, room;
+    bool data;              /* read by #read: its tokens are not kept      */
+    bool idle;              /* data that is not read from any more         */
     struct chunk *whole;    /* all its tokens, or NULL: see reader.h       */
 };
 
@@ -23,6 +25,13 @@ struct source *source_open_path(struct parser *parser, struct location at,
 /* A text that #include names: it is sought, and must be permitted. */
 struct source *source_open(struct parser *parser, struct location at,
                            struct string name);
+/* A file that #read reads, as it is now. */
+struct source *source_open_data(struct parser *parser, struct location at,
+                                struct string name);
+void source_close_data(struct source *source);
+/* The file was written to: it is read anew when it is named again. */
+void source_forget(struct parser *parser, const char *real);
+
 void source_release(struct parser *parser);
 
 /* False: texts and tokens need more memory than they may, reported. */

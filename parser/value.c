@@ -28,6 +28,7 @@ static const char *const kind_name[VALUE_KINDS] = {
     [VALUE_LIST] = "long vector",
     [VALUE_FORMULA] = "formula",
     [VALUE_FUNCTION] = "function",
+    [VALUE_FILE] = "file",
     [VALUE_SPLINE] = "spline",
     [VALUE_NORMAL_MAP] = "normal_map",
     [VALUE_SLOPE_MAP] = "slope_map",

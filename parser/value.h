@@ -19,6 +19,7 @@ enum value_kind {
     VALUE_LIST,             /* `<...>` of more terms than a number has     */
     VALUE_FORMULA,          /* of a function's parameters, not known yet   */
     VALUE_FUNCTION,
+    VALUE_FILE,             /* opened by #fopen                            */
     /* Made by the builder, which alone looks into `node`. */
     VALUE_OBJECT,
     VALUE_TEXTURE, VALUE_PIGMENT, VALUE_NORMAL, VALUE_FINISH,
@@ -36,6 +37,7 @@ enum { VALUE_TERMS = 5, VALUE_RANK = 5 };
 
 struct list;
 struct formula;
+struct stream;
 
 struct string {
     const char *text;       /* UTF-8, NUL behind it; may hold NULs         */
@@ -52,6 +54,7 @@ struct value {
         struct macro *macro;
         const struct list *list;
         const struct formula *formula;
+        struct stream *stream;
         void *node;
     };
 };

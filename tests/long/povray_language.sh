@@ -1,6 +1,6 @@
 #!/bin/bash
 # The cases of tests/parse that write with #debug and have no diagnostics, run
-# by POV-Ray, which must write the same but for blanks. A case that POV-Ray
+# by POV-Ray, which must write the same but for blanks and the same files. A case that POV-Ray
 # reads otherwise says so in a section `-- unlike POV-Ray: the reason`.
 set -u
 cd "$(dirname "$0")/../parse" || exit 2
@@ -24,6 +24,11 @@ cat ./*.txt | awk -v work="$work" '
     }
     /^-- file / { begin(folder "/" $3); next }
     /^-- out/ { begin(folder "/out"); next }
+    /^-- wrote / {
+        system("mkdir -p " folder "/wrote")
+        begin(folder "/wrote/" $3)
+        next
+    }
     /^-- (set|diag|unlike)/ { begin(folder "/special"); next }
     { print >to }'
 
@@ -31,6 +36,7 @@ cat ./*.txt | awk -v work="$work" '
 debug_output()
 {
     sed -n '1,/^==== \[Parsing/d; /^File .*Parse Warning/,$d; p' |
+        sed 's/Parsing *[0-9]*K tokens//g' |
         sed '/^\(Fatal error\|Render failed\|File \|==== \)/,$d' | tr -d ' \n\t\r'
 }
 
@@ -43,6 +49,11 @@ for folder in [0-9]*; do
     got=$(cd "$folder" && povray -D -F +W1 +H1 +WT1 -GR -GS +Llibrary \
         scene.pov 2>&1 | debug_output)
     want=$(tr -d ' \n\t\r' <"$folder/out")
+    for file in "$folder"/wrote/*; do
+        [ -e "$file" ] || continue
+        got=$got$(tr -d '\n' <"$folder/${file##*/}")
+        want=$want$(tr -d '\n' <"$file")
+    done
     if [ "$got" = "$want" ]; then
         echo "ok - language: $(<"$folder/name")"
     else

@@ -9,6 +9,7 @@
  *                           float; `standard 1`: with scenes/include
  *     -- out                what #debug writes, a line end added if there
  *                           is none; without it, nothing
+ *     -- wrote NAME         what the scene writes to a file
  *     -- diag               the diagnostics; without it, none
  *
  * In a text, `%NUL` stands for a NUL byte and `%xHH` for any byte. With
@@ -216,6 +217,24 @@ static void clean(const struct test_case *test)
     for (const struct section *s = test->section; s; s = s->next) {
         if (strncmp(s->head, "file ", 5) == 0) {
             unlink(s->head + 5);
+        } else if (strncmp(s->head, "wrote ", 6) == 0) {
+            unlink(s->head + 6);
+        }
+    }
+}
+
+/* The files that the scene should have written. */
+static void check_written(const struct test_case *test)
+{
+    for (const struct section *s = test->section; s; s = s->next) {
+        if (strncmp(s->head, "wrote ", 6) == 0) {
+            char *text = read_file(s->head + 6);
+            size_t length = strlen(text);
+            if (length > 0 && text[length - 1] != '\n') {
+                text[length] = '\n';
+            }
+            assert_string_equal(text, s->body);
+            free(text);
         }
     }
 }
@@ -228,10 +247,15 @@ static void run_case(void **state)
     FILE *out = open_memstream(&said, &said_length);
     FILE *list = open_memstream(&wrong, &wrong_length);
     const char *const library[] = {"library", standard};
+    const char *const here[] = {"."};
+    struct parse_written written = {0};
     struct parse_declare declare = {0};
     struct parse_input in = {.path = "scene.pov",
                              .library = library,
                              .libraries = 1,
+                             .allow_write = here,
+                             .allow_writes = 1,
+                             .written = &written,
                              .ambient = PARSE_AMBIENT_INIT,
                              .message = collect,
                              .user = out};
@@ -253,12 +277,14 @@ static void run_case(void **state)
     }
     fclose(out);
     fclose(list);
-    clean(test);
     assert_string_equal(wrong, body_of(test, "diag"));
     assert_string_equal(said, body_of(test, "out"));
+    check_written(test);
+    clean(test);
     free(said);
     free(wrong);
     free((char *)declare.name);
+    parse_written_release(&written);
 }
 
 int main(int argc, char **argv)
