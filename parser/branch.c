@@ -338,7 +338,7 @@ static bool run_end(struct expander *expander, const struct token *token)
     case TOK_HASH_FOR:
         return next_for(expander);
     case TOK_HASH_MACRO:
-        macro_leave(expander);
+        expand_leave(expander);
         return true;
     default:
         leave(expander, opener);
@@ -350,7 +350,7 @@ static bool run_break(struct expander *expander, const struct token *token)
 {
     uint32_t opener = token->block.pair;
     if (token_at(expander, opener)->kind == TOK_HASH_MACRO) {
-        macro_leave(expander);
+        expand_leave(expander);
     } else {
         leave(expander, opener);
     }

@@ -211,6 +211,8 @@ static void misplaced_statement(struct parser *parser,
 
     snprintf(hint, sizeof hint, "is a '}' missing? '%s' began in line %d", word,
              report_line(parser, around->at));
+    /* A statement that begins a line goes on from there. */
+    parser->brace_missing = report_begins_line(parser, at);
     parser_fail(parser, BRUME_ERR_SCENE, at, statement->within ? NULL : hint,
                 "'%s' has no place in '%s'", statement->word, word);
 }
@@ -370,6 +372,10 @@ static const struct param move_rows[] = {
     PARAM_OWN("scale", 1, 1, 0),     PARAM_OWN("matrix", 1, 1, 0),
     PARAM_OWN("transform", 0, 0, 0), {0}};
 
+/* What an unknown word takes with it. */
+static const struct param lost_row = {
+    .word = "", .kind = PARAM_IGNORED, .most = PARAM_MOST};
+
 static bool is_move(const struct param *row)
 {
     return row >= move_rows && row < move_rows + 5;
@@ -447,6 +453,8 @@ static void finish_row(struct parser *parser, struct frame *frame)
             builder->value_at = at;
         statement->values(parser, frame, row, builder->value, count, at);
     } else {
+        if (row == &lost_row)
+            return;
         find_row(statement, row->word, &offset);
         if (param_set(parser, row, (char *)frame->node + offset, at,
                       builder->value, count, builder->value_at))
@@ -483,7 +491,7 @@ void build_word(struct parser *parser, const struct name *word,
     const struct param *row = find_row(statement, word->text, &offset);
     if (!row) {
         report_unknown(parser, at, word->text, statement->word);
-        return;
+        row = &lost_row;
     }
     if (!frame->node && !is_move(row) && row->kind != PARAM_VALUES) {
         parser_error(parser, at, "'%s' cannot have '%s' in a mesh",
@@ -503,7 +511,8 @@ static bool row_takes(const struct frame *frame, const struct value *value)
     const struct param *row = frame->row;
 
     return row && frame->values < param_most(row) &&
-           (value->kind != VALUE_STRING || row->kind == PARAM_VALUES);
+           (value->kind != VALUE_STRING || row->kind == PARAM_VALUES ||
+            row == &lost_row);
 }
 
 static void set_argument(struct parser *parser, struct frame *frame,
@@ -631,6 +640,12 @@ bool build_begin(struct parser *parser)
     builder->default_texture = model_default_texture;
     build_globals_start(&builder->globals);
     return true;
+}
+
+void build_reset(struct parser *parser)
+{
+    parser->builder->frames = 0;
+    parser->builder->fresh = NULL;
 }
 
 void build_release(struct parser *parser)

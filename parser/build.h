@@ -14,6 +14,8 @@
 bool build_begin(struct parser *parser);
 /* The text has ended: camera, globals and atmosphere go to the scene. */
 bool build_finish(struct parser *parser);
+/* What is open is given up: the text goes on behind an error. */
+void build_reset(struct parser *parser);
 /* Frees what does not lie in the arena; may be called at any time. */
 void build_release(struct parser *parser);
 

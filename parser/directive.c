@@ -222,8 +222,11 @@ static bool message(struct expander *expander, const struct pending *pending)
     if (pending->use == USE_WARNING) {
         parser_warn(parser, pending->at, "%.*s", (int)text.length, text.text);
     }
-    return pending->use != USE_ERROR ||
-           parser_error(parser, pending->at, "%.*s", (int)text.length,
+    if (pending->use != USE_ERROR) {
+        return true;
+    }
+    parser->fatal = true;
+    return parser_error(parser, pending->at, "%.*s", (int)text.length,
                         text.text);
 }
 

@@ -14,6 +14,7 @@ struct frame {
     struct macro *macro;        /* NULL: a text                            */
     struct location called;     /* of the #include or the macro's name     */
     size_t loops;               /* open when the frame began               */
+    uint32_t level;             /* of its scope of names                   */
 };
 
 /* A #for or #switch that is being run; other blocks need no state. */
@@ -76,7 +77,10 @@ struct pending {
     size_t frames;              /* open when it began                      */
     size_t start, passed;       /* of the frame's cursor when it began     */
     size_t depth;               /* brackets that are open in it            */
+    size_t braces;              /* of them                                 */
     bool open_ended;            /* ends where no token fits any more       */
+    bool dropping;              /* tokens are lost after an error,         */
+    size_t drop_depth;          /* within so many brackets                 */
     union {
         struct {
             struct name *name;          /* USE_DECLARE                     */
@@ -128,6 +132,9 @@ struct expander {
     struct value result;            /* of the last parser that finished    */
     int count;
     uint64_t tokens, iterations, ticks;
+    uint64_t pushed, recoveries;    /* tokens that the grammar has seen; at
+                                       the last error that was overcome,   */
+    struct location recovered;      /* and where that was                  */
     double deadline;                /* of timer_now; 0: none               */
 };
 
@@ -164,6 +171,8 @@ struct name *expand_need_name(struct expander *expander);
 void *expand_grow(struct expander *expander, void *items, size_t *room,
                   size_t need, size_t size);
 bool expand_enter(struct expander *expander, const struct frame *frame);
+/* Leaves the text or body that is being read, and its scope of names. */
+void expand_leave(struct expander *expander);
 /* Begins a value; `mode` is a TOK_MODE_. NULL: an error. */
 struct pending *expand_begin(struct expander *expander, int mode,
                              enum use use, struct location at);
@@ -174,6 +183,19 @@ void expand_hold(struct expander *expander, const struct value *value,
  * left. */
 bool expand_return(struct expander *expander, size_t frames,
                    struct location at);
+
+/* ---- recover.c ---- */
+
+/* Whether a token is lost, being what an error made worthless. */
+bool recover_drops(struct pending *pending, int kind);
+/* Whether the name that comes next seems to begin a statement, so that no more
+ * is lost. */
+bool recover_ends(const struct expander *expander);
+/* Reports a name that stands for nothing and that comes next. */
+bool recover_undeclared(struct expander *expander, struct name *name,
+                        struct location at);
+/* Makes the parse go on after an error was reported; false: it ends here. */
+bool recover_after_error(struct expander *expander);
 
 /* ---- directive.c ---- */
 
@@ -224,8 +246,6 @@ bool macro_argument(struct expander *expander, const struct value *value,
 /* The same for an item of an array, which may be the begin of a value. */
 bool macro_item(struct expander *expander, struct value *item,
                 struct location at);
-/* Leaves the body that is being read. */
-void macro_leave(struct expander *expander);
 
 /* ---- item.c: items of arrays ---- */
 

@@ -36,20 +36,22 @@ bool expand_enter(struct expander *expander, const struct frame *frame)
     expander->frame = grown;
     grown[expander->frames] = *frame;
     grown[expander->frames].loops = expander->loops;
+    grown[expander->frames].level = expander->parser->symbols.level;
     expander->frames++;
     expander->texts += !frame->macro;
     return true;
 }
 
-/* At the end of a text that was included. */
-static void leave_text(struct expander *expander)
+void expand_leave(struct expander *expander)
 {
     struct frame *frame = expand_frame(expander);
     reader_close(expander->parser, &frame->cursor);
     expander->loops = frame->loops;
+    expander->texts -= !frame->macro;
     expander->frames--;
-    expander->texts--;
-    symbols_leave(&expander->parser->symbols);
+    while (expander->parser->symbols.level >= frame->level) {
+        symbols_leave(&expander->parser->symbols);
+    }
 }
 
 bool expand_return(struct expander *expander, size_t frames, struct location at)
@@ -57,9 +59,9 @@ bool expand_return(struct expander *expander, size_t frames, struct location at)
     while (expander->frames > frames) {
         int kind = expand_peek(expander)->kind;
         if (kind == TOK_HASH_END && expand_frame(expander)->macro) {
-            macro_leave(expander);
+            expand_leave(expander);
         } else if (kind == TOK_END) {
-            leave_text(expander);
+            expand_leave(expander);
         } else {
             return parser_error(expander->parser, at,
                                 "the directive's value "
@@ -210,6 +212,8 @@ void expander_spend(struct parser *parser, int tokens, struct location at)
 
 static void count_brackets(struct pending *pending, int kind)
 {
+    pending->braces += kind == '{';
+    pending->braces -= kind == '}' && pending->braces > 0;
     if (kind == '(' || kind == '{' || kind == '[') {
         pending->depth++;
     } else if (kind == ')' || kind == '}' || kind == ']') {
@@ -228,6 +232,10 @@ static bool push(struct expander *expander, int kind,
     if (!count_token(expander, at)) {
         return false;
     }
+    if (recover_drops(pending, kind)) {
+        return true;
+    }
+    expander->pushed++;
     if (kind != TOK_END) {
         expander->place = at;
     }
@@ -322,9 +330,12 @@ static bool run_name(struct expander *expander, const struct token *token)
         expand_skip(expander);
         return push_word(expander, TOK_IDENTIFIER, token);
     }
+    if (innermost(expander)->dropping && !recover_ends(expander)) {
+        expand_skip(expander);
+        return push_word(expander, TOK_IDENTIFIER, token);
+    }
     if (!value && !token->name->keyword) {
-        report_undeclared(expander->parser, at, token->name);
-        return false;
+        return recover_undeclared(expander, token->name, at);
     }
     expand_skip(expander);
     directive_used(expander, token);
@@ -499,7 +510,7 @@ static bool run_end(struct expander *expander)
     if (expander->frames == innermost(expander)->frames) {
         return push_end(expander);
     }
-    leave_text(expander);
+    expand_leave(expander);
     return true;
 }
 
@@ -621,7 +632,7 @@ bool expander_run(struct parser *parser)
     parser->expander = &expander;
     bool going = enter_scene(&expander);
     while (going && expander.pendings > 0) {
-        going = step(&expander);
+        going = step(&expander) || recover_after_error(&expander);
     }
     release(&expander);
     parser->expander = NULL;

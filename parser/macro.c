@@ -190,13 +190,6 @@ static bool enter(struct expander *expander)
     return bind(expander, &call) && expand_enter(expander, &frame);
 }
 
-void macro_leave(struct expander *expander)
-{
-    expander->loops = expand_frame(expander)->loops;
-    expander->frames--;
-    symbols_leave(&expander->parser->symbols);
-}
-
 /* ---- arguments --------------------------------------------------------- */
 
 static bool ends_argument(const struct token *token)

@@ -1,4 +1,5 @@
 /* The program: the only place that prints and that ends the process. */
+#include "parser/check.h"
 #include "parser/console.h"
 #include "parser/explain.h"
 #include "parser/options.h"
@@ -36,6 +37,7 @@ struct run {
     struct options options;
     struct console console;
     struct reel reel;
+    struct check check;
     enum brume_code code; /* of what the events below did        */
 };
 
@@ -43,7 +45,11 @@ struct run {
 
 static void on_report(void *user, const struct diag *diag)
 {
-    console_diag(&((struct run *)user)->console, diag);
+    struct run *run = user;
+    if (run->options.action == OPTIONS_CHECK_JSON)
+        check_add(&run->check, diag);
+    else
+        console_diag(&run->console, diag);
 }
 
 static void on_message(void *user, enum parse_stream stream, const char *text)
@@ -77,7 +83,7 @@ static enum brume_code tell(struct run *run, const struct brume_error *err)
     struct diag diag;
     diag_init(&diag);
     diag_error(&diag, err->code, "%s", err->text);
-    console_diag(&run->console, &diag);
+    on_report(run, &diag);
     diag_release(&diag);
     return err->code;
 }
@@ -128,6 +134,17 @@ static enum brume_code act(struct run *run)
     return code;
 }
 
+static void print_check(struct run *run)
+{
+    struct brume_error err = {0};
+    char *text = check_text(&run->check, &err);
+    if (text)
+        fputs(text, stdout);
+    else
+        fprintf(stderr, "error: %s\n", err.text);
+    free(text);
+}
+
 static enum brume_code render(struct run *run, const struct diag *diag)
 {
     struct brume_error err = {0};
@@ -135,7 +152,7 @@ static enum brume_code render(struct run *run, const struct diag *diag)
     if (!console_open(&run->console, &run->options, stderr,
                       isatty(STDERR_FILENO), &err))
         code = tell(run, &err);
-    console_diag(&run->console, diag);
+    on_report(run, diag);
     if (!code && !diag->errors && !run->options.input) {
         fputs("error: no scene is given\nhint: brume --help tells what can "
               "be\n",
@@ -146,6 +163,8 @@ static enum brume_code render(struct run *run, const struct diag *diag)
         code = diag->code;
     if (!code)
         code = act(run);
+    if (run->options.action == OPTIONS_CHECK_JSON)
+        print_check(run);
     console_close(&run->console);
     return code;
 }

@@ -31,7 +31,7 @@ static const struct option_word dither_words[] = {
 
 static const struct option_word check_words[] = {
     {"", OPTIONS_CHECK, false},
-    {"json", OPTIONS_CHECK, true},
+    {"json", OPTIONS_CHECK_JSON, false},
     {NULL, 0, false},
 };
 
@@ -202,9 +202,9 @@ const struct option option_table[] = {
       .help = "below 9 only warns: it is always full" },
 
     HEADING("What to do, and what to tell"),
-    { .name = "check", .value = "[=format]", .set = set_action,
+    { .name = "check", .value = "[=json]", .set = set_action,
       .at = AT(action), .words = check_words,
-      .help = "read the scene, render nothing" },
+      .help = "read the scene, tell all errors" },
     { .name = "explain", .value = "[=json]", .set = set_action,
       .at = AT(action), .words = explain_words,
       .help = "print the plan, render nothing" },

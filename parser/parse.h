@@ -58,6 +58,7 @@ struct parse_input {
                                    token (+HI); or NULL                    */
     double version;             /* of the language until #version says
                                    otherwise (+MV); 0: 3.7                 */
+    bool all_errors;            /* go on behind errors, to report them all */
     bool full_transport;        /* transport is full unless the scene writes
                                    it out (--transport full)               */
     /* Folders, in the order they are searched after the scene's own. */

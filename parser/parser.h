@@ -48,6 +48,7 @@ struct parser {
     bool failed;                    /* an error was reported: stop, or go on
                                        with the next statement             */
     bool fatal;                     /* and nothing can come after it       */
+    bool brace_missing;             /* that error was for want of a '}'    */
     struct location warned[64];     /* offset + 1, by offset               */
 };
 

@@ -8,6 +8,11 @@
 
 /* ---- telling ----------------------------------------------------------- */
 
+static bool checks(enum options_action action)
+{
+    return action == OPTIONS_CHECK || action == OPTIONS_CHECK_JSON;
+}
+
 static void report(const struct reel *reel, const struct diag *diag)
 {
     if (diag->first || diag->errors || diag->warnings)
@@ -133,6 +138,7 @@ static bool read_scene(struct reel *reel, int number,
         .header = options->header,
         .version = options->version,
         .full_transport = options->full_transport,
+        .all_errors = checks(options->action),
         .library = reel->library,
         .libraries = reel->libraries,
         .allow_read = options->allow_read.item,
@@ -347,7 +353,7 @@ static enum brume_code run_frame(struct reel *reel, int number)
 static bool goes_on(const struct reel *reel)
 {
     enum options_action action = reel->options->action;
-    return action == OPTIONS_RENDER || action == OPTIONS_CHECK;
+    return action == OPTIONS_RENDER || checks(action);
 }
 
 enum brume_code reel_run(struct reel *reel, struct options *options,

@@ -74,11 +74,13 @@ static bool fail(struct parser *parser, enum brume_code code,
 {
     struct diag_item item = {
         .severity = DIAG_ERROR, .code = code, .text = text, .hint = hint};
-    /* What follows the first error is its consequence. */
+    /* What follows an error is its consequence. */
     if (!parser->failed) {
         add(parser, &item, at);
     }
     parser->failed = true;
+    parser->fatal |= code != BRUME_ERR_SCENE && code != BRUME_ERR_FILE &&
+                     code != BRUME_ERR_ACCESS;
     return false;
 }
 
@@ -101,7 +103,9 @@ bool parser_mistake(struct parser *parser, struct location at,
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return fail(parser, BRUME_ERR_SCENE, at, NULL, text);
+    fail(parser, BRUME_ERR_SCENE, at, NULL, text);
+    parser->failed &= !parser->in->all_errors;
+    return false;
 }
 
 bool parser_fail(struct parser *parser, enum brume_code code,
@@ -332,6 +336,12 @@ int report_line(const struct parser *parser, struct location at)
 {
     const struct source *source = source_of(parser, at);
     return source ? source_locate(source, at.offset).line : 0;
+}
+
+bool report_begins_line(const struct parser *parser, struct location at)
+{
+    const struct source *source = source_of(parser, at);
+    return source && source_locate(source, at.offset).column == 1;
 }
 
 /* Asks for the '}' of the statement `word` that began at `began`. */

@@ -22,6 +22,8 @@ bool report_unknown(struct parser *parser, struct location at,
                     const char *word, const char *in);
 /* The line of a place in its text. */
 int report_line(const struct parser *parser, struct location at);
+/* Whether nothing but blanks stands before it there. */
+bool report_begins_line(const struct parser *parser, struct location at);
 
 /* The grammar's stack cannot grow: `depth` was reached, or memory. */
 void report_exhausted(struct parser *parser, struct location at, int depth);

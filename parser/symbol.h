@@ -17,6 +17,7 @@ struct name {
     const struct keyword *keyword;  /* NULL: an ordinary name              */
     struct symbol *symbol;          /* most local declaration; or NULL     */
     uint32_t hash, length;
+    bool reported;                  /* as undeclared                       */
     char text[];
 };
 

@@ -72,7 +72,7 @@ exits 2
 says '+W: a value is missing'
 
 new_case 'what is not supported yet says so'
-for word in +C --resume --preview --check=json +FJ +FT +UF Create_Ini=on; do
+for word in +C --resume --preview +FJ +FT +UF Create_Ini=on; do
     brume s.pov "$word"
     exits 2
     says 'not supported yet'

@@ -248,7 +248,6 @@ static void test_options__not_yet(void **state)
     ASSERT_ERROR("--preset: not supported yet", "--preset", "paper");
     ASSERT_ERROR("--integrator: 'photon' is not supported yet", "--integrator",
                  "photon");
-    ASSERT_ERROR("--check: 'json' is not supported yet", "--check=json");
     ASSERT_ERROR("+F: file type 'J' is not supported yet; N is PNG, E "
                  "OpenEXR, P PPM",
                  "+FJ");
