@@ -495,6 +495,33 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
                                    double out[BRUME_MAX_RESULTS],
                                    struct brume_error *err);
 
+enum brume_spline_kind {
+    BRUME_SPLINE_LINEAR, BRUME_SPLINE_QUADRATIC, BRUME_SPLINE_CUBIC,
+    BRUME_SPLINE_NATURAL
+};
+
+/* Points in any order, each with a parameter; where two have the same, the
+ * later replaces the earlier, unless it is the greatest so far. */
+struct brume_spline {
+    enum brume_spline_kind kind;
+    int terms;                  /* numbers in a point, 1 to 5              */
+    int count;                  /* of points, 1 at least                   */
+    const double *parameters;   /* count                                   */
+    const double *values;       /* count times terms                       */
+};
+BRUME_API int brume_add_spline(brume_scene *scene,
+                               const struct brume_spline *spline,
+                               struct brume_error *err);
+/* The spline's terms at t, as if it were of that kind; -1: of its own. Beyond
+ * the first and the last point it is what it is there; a cubic one has no
+ * curve before the second point and after the last but one. */
+BRUME_API bool brume_eval_spline(const brume_scene *scene, int id, int kind,
+                                 double t, double out[BRUME_MAX_RESULTS],
+                                 struct brume_error *err);
+/* Takes t and leaves the spline's terms. */
+BRUME_API bool brume_function_spline(struct brume_function *function, int id,
+                                     int kind, struct brume_error *err);
+
 /* ---- plan and render --------------------------------------------------- */
 
 enum brume_integrator { BRUME_INTEGRATOR_PATH };

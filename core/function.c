@@ -78,23 +78,28 @@ static void land(struct brume_function *f, size_t from)
     f->code[from].a = (int32_t)(f->count - from - 1);
 }
 
-bool function_numbers(struct brume_function *f, const double *numbers,
-                      size_t count, int32_t *first, struct brume_error *err)
+bool pool_add(struct brume_scene *s, const double *numbers, size_t count,
+              int32_t *first, struct brume_error *err)
 {
-    brume_scene *s = f->scene;
-    if (count > INT32_MAX - s->pool_count) {
-        brume_fail(err, BRUME_ERR_LIMIT, "too many numbers in functions");
-        return fail(f);
-    }
+    if (count > INT32_MAX - s->pool_count)
+        return brume_fail(err, BRUME_ERR_LIMIT,
+                          "too many numbers in functions");
     void *grown = memory_grow(s->pool, &s->pool_capacity, s->pool_count + count,
                               sizeof *s->pool, err);
     if (!grown)
-        return fail(f);
+        return false;
     s->pool = grown;
     *first = (int32_t)s->pool_count;
     for (size_t i = 0; i < count; i++)
         s->pool[s->pool_count++] = numbers[i];
     return true;
+}
+
+static bool numbers(struct brume_function *f, const double *values,
+                    size_t count, int32_t *first, struct brume_error *err)
+{
+    return usable(f, err) &&
+           (pool_add(f->scene, values, count, first, err) || fail(f));
 }
 
 /* ---- the stack --------------------------------------------------------- */
@@ -186,9 +191,8 @@ bool function_wide(struct brume_function *f, enum machine_op op, int takes,
 bool brume_function_constant(struct brume_function *function, double value,
                              struct brume_error *err)
 {
-    int32_t first;
-    return usable(function, err) &&
-           function_numbers(function, &value, 1, &first, err) &&
+    int32_t first = 0;
+    return numbers(function, &value, 1, &first, err) &&
            push(function, ~first, err);
 }
 
@@ -294,10 +298,21 @@ bool brume_function_transform(struct brume_function *function,
                               const double transform[3][4],
                               struct brume_error *err)
 {
-    int32_t first;
-    return usable(function, err) &&
-           function_numbers(function, transform[0], 12, &first, err) &&
+    int32_t first = 0;
+    return numbers(function, transform[0], 12, &first, err) &&
            function_wide(function, MACHINE_TRANSFORM, 3, 3, first, 0, 0, err);
+}
+
+bool brume_function_spline(struct brume_function *function, int id, int kind,
+                           struct brume_error *err)
+{
+    struct brume_function *f = function;
+    if (!usable(f, err) || !spline_check(f->scene, id, kind, err))
+        return fail(f);
+    int32_t at = f->scene->splines[id];
+    int terms = (int)f->scene->pool[at + 1];
+    return function_wide(f, MACHINE_SPLINE, 1, terms, at,
+                         home(f, f->height - 1), kind, err);
 }
 
 /* ---- blocks ------------------------------------------------------------ */

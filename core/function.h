@@ -42,11 +42,15 @@ bool function_verify(const struct brume_scene *scene,
                      const machine_instruction *code, int32_t id,
                      const machine_function *f, struct brume_error *err);
 
-/* ---- what writes more than brume.h's operations ------------------------ */
-
 /* `count` numbers into the pool; *first is their place. */
-bool function_numbers(struct brume_function *f, const double *numbers,
-                      size_t count, int32_t *first, struct brume_error *err);
+bool pool_add(struct brume_scene *s, const double *numbers, size_t count,
+              int32_t *first, struct brume_error *err);
+
+/* Whether there is a spline of that id, and such a kind or -1. */
+bool spline_check(const struct brume_scene *s, int id, int kind,
+                  struct brume_error *err);
+
+/* ---- what writes more than brume.h's operations ------------------------ */
 
 /* An instruction on `takes` operands, put at their places in the frame from
  * dst on, that leaves `gives` results there. */

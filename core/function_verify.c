@@ -47,6 +47,17 @@ static bool is_internal(const struct verifier *v, const machine_instruction *i)
     return parameters >= 0 && in_frame(v, i->a, 3 + parameters);
 }
 
+/* A spline of the scene, whose terms have room from dst on. */
+static bool is_spline(const struct verifier *v, const machine_instruction *i)
+{
+    const struct brume_scene *s = v->scene;
+    for (size_t k = 0; k < s->splines_count; k++)
+        if (s->splines[k] == i->a)
+            return in_frame(v, i->dst, (int64_t)s->pool[i->a + 1]) &&
+                   i->c >= -1 && i->c < SPLINE_TYPES;
+    return false;
+}
+
 static bool operand_holds(const struct verifier *v, char shape,
                           const machine_instruction *i, int32_t operand,
                           int32_t at)
@@ -62,6 +73,8 @@ static bool operand_holds(const struct verifier *v, char shape,
         return operand >= 0 && (size_t)operand < v->scene->pool_count;
     case 'i':
         return is_internal(v, i);
+    case 's':
+        return is_spline(v, i);
     case 'f':
         return is_call(v, operand, i->dst);
     default:

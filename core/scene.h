@@ -24,7 +24,8 @@ struct scene_query;
     X(struct grid *, grids)                                                   \
     X(machine_instruction, code)        /* of all functions */                \
     X(machine_function, functions)                                            \
-    X(double, pool)             /* numbers that instructions refer to */
+    X(double, pool)             /* numbers that instructions refer to */      \
+    X(int32_t, splines)         /* their places in the pool */
 
 struct brume_scene {
     struct brume_camera camera;

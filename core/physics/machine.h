@@ -14,6 +14,7 @@
 #ifndef CORE_PHYSICS_MACHINE_H
 #define CORE_PHYSICS_MACHINE_H
 #include "core/physics/internal.h"
+#include "core/physics/spline.h"
 
 enum {
     MACHINE_REGISTERS = 256,    /* of all frames of an evaluation          */
@@ -74,7 +75,7 @@ enum {
 /* The rest: NAME, and what dst, a, b and c are, for the verifier: a digit is
  * that many registers from dst on; v a value, r a register, j a distance to
  * jump forward, l one to loop back, f a function, i the first argument of an
- * internal function, n a plain number, - none. */
+ * internal function, s a spline, n a plain number, - none. */
 #define MACHINE_OTHER(X)                                                      \
     X(RETURN, "-vn-")       /* b results: one is a, more are registers a...*/ \
     X(CALL, "-f--")         /* frame at dst                                */ \
@@ -84,6 +85,7 @@ enum {
     X(JUMP_GREATER, "-jvv") /* out of a loop                               */ \
     X(LOOP, "1l--")         /* dst += 1, and back                          */ \
     X(INTERNAL, "1in-")     /* internal(b) of registers a...               */ \
+    X(SPLINE, "-sv-")       /* dst... = the spline at b, as one of type c  */ \
     X(TRANSFORM, "3p--")    /* 12 numbers of the pool: rows of A|b         */ \
     X(GRAY, "3---")         /* dst becomes the gray of a colour            */ \
     X(HEIGHT, "3---")       /* ... its height, as in a height field        */
@@ -207,6 +209,10 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
             break;
         case MACHINE_INTERNAL:
             r[i->dst] = internal_eval(i->b, r + i->a);
+            break;
+        case MACHINE_SPLINE:
+            spline_eval(m->pool + i->a, i->c, machine_value(m, r, i->b),
+                        r + i->dst);
             break;
         case MACHINE_TRANSFORM:
             machine_transform(m->pool + i->a, r + i->dst);
