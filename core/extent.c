@@ -7,29 +7,25 @@
 #include "core/shapes.h"
 #include "lib/memory.h"
 
-/* A round frame's sides as POV-Ray's boxes have them, whatever ours: turned
- * about the axis by twice the angle of its x and y. Measured. */
-static void turn_frame(matrix *m)
+/* A round frame's sides as POV-Ray's boxes have them, whatever ours: z is
+ * turned about y and then about z into the axis, and before that about itself
+ * by the last angle, a disc the other way (tests/oracle/shapes.py). */
+static void turn_frame(matrix *m, bool disc)
 {
-    double axis[3], size = 0.0, radius = 0.0;
+    double z = 0.0, radius = 0.0;
     for (int i = 0; i < 3; i++) {
-        size += m->m[i][2] * m->m[i][2];
+        z += m->m[i][2] * m->m[i][2];
         radius += m->m[i][0] * m->m[i][0];
     }
-    size = sqrt(size);
+    z = m->m[2][2] / sqrt(z);
     radius = sqrt(radius);
-    for (int i = 0; i < 3; i++)
-        axis[i] = m->m[i][2] / size;
-    double x = axis[0], y = axis[1], z = axis[2], k = 1.0 / (1.0 + fabs(z));
-    double flat = x * x + y * y;
-    double c = flat > 0.0 ? (x * x - y * y) / flat : 1.0;
-    double s = flat > 0.0 ? 2.0 * x * y / flat : 0.0;
-    double up = z < 0.0 ? -1.0 : 1.0;
-    double a[3] = {1.0 - x * x * k, -x * y * k, -x * up};
-    double b[3] = {-x * y * k, 1.0 - y * y * k, -y * up};
+    double rho = hypot(m->m[0][2], m->m[1][2]), r = sqrt(fmax(0, 1 - z * z));
+    double c = rho > 0.0 ? m->m[0][2] / rho : 1.0;
+    double s = rho > 0.0 ? m->m[1][2] / rho : 0.0;
+    double a[3] = {z * c, z * s, -r}, b[3] = {-s, c, 0};
     for (int i = 0; i < 3; i++) {
-        m->m[i][0] = radius * (s * a[i] - c * b[i]);
-        m->m[i][1] = radius * (c * a[i] + s * b[i]);
+        m->m[i][0] = radius * (c * a[i] + (disc ? -s : s) * b[i]);
+        m->m[i][1] = radius * (c * b[i] - (disc ? -s : s) * a[i]);
     }
 }
 
@@ -40,9 +36,25 @@ static struct box round_box(const struct leaf *leaf, const matrix *transform)
     double high = leaf->kind == SHAPE_DISC ? 0.001 : 1.0;
     struct box own = {{-1, -1, low}, {1, 1, high}};
     matrix map = leaf->map;
-    turn_frame(&map);
+    turn_frame(&map, leaf->kind == SHAPE_DISC);
     map = matrix_compose(transform, &map);
     return box_transform(&own, &map);
+}
+
+/* A ball that was turned and then stretched along the axes has a tight box. */
+static bool is_tight(const struct brume_shape *s)
+{
+    const double(*m)[4] = s->transform;
+    if (s->kind == BRUME_SHAPE_PLANE)
+        return true;
+    for (int i = 0; i < 3; i++) {
+        const double *a = m[i], *b = m[(i + 1) % 3];
+        double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        double size = fabs(a[0] * b[0]) + fabs(a[1] * b[1]) + fabs(a[2] * b[2]);
+        if (fabs(dot) > 1e-9 * size)
+            return false;
+    }
+    return s->kind == BRUME_SHAPE_SPHERE;
 }
 
 static bool leaf_extent(const brume_scene *scene, const struct brume_shape *s,
@@ -51,7 +63,7 @@ static bool leaf_extent(const brume_scene *scene, const struct brume_shape *s,
     struct arena arena;
     struct leaf leaf;
     matrix placed = matrix_from(s->transform), none = matrix_identity();
-    bool tight = s->kind == BRUME_SHAPE_SPHERE || s->kind == BRUME_SHAPE_PLANE;
+    bool tight = is_tight(s);
     struct leaf_request request = {scene, s, LEAF_ALL, true,
                                    tight ? &placed : &none};
     arena_init(&arena, 0);
@@ -87,17 +99,26 @@ static struct box composite_extent(const brume_scene *scene,
     return box_transform(&out, &placed);
 }
 
-/* Planes that clip are not reckoned with. */
+static double box_volume(const struct box *b)
+{
+    return (b->hi[0] - b->lo[0]) * (b->hi[1] - b->lo[1]) *
+           (b->hi[2] - b->lo[2]);
+}
+
+/* Clips matter only where their box is smaller than the shape's, and then it
+ * is taken as it is. */
 static void clip_extent(const brume_scene *scene, const struct brume_shape *s,
                         struct box *box)
 {
     matrix placed = matrix_from(s->transform);
-    for (size_t i = 0; i < s->clip_count; i++) {
-        struct box clip = scene->queries[s->clips[i]].extent;
-        clip = box_transform(&clip, &placed);
+    struct box common = box_endless();
+    for (size_t i = 0; i < s->clip_count; i++)
         if (!scene->shapes[s->clips[i]].inverse)
-            *box = box_common(box, &clip);
-    }
+            common = box_common(&common, &scene->queries[s->clips[i]].extent);
+    common = box_transform(&common, &placed);
+    if (box_is_bounded(&common) && !box_is_empty(&common) &&
+        !(box_volume(&common) >= box_volume(box)))
+        *box = common;
 }
 
 static bool find_extent(brume_scene *scene, int shape, struct brume_error *err)
