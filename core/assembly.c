@@ -176,9 +176,31 @@ static bool push_clips(struct work *w, const struct task *t,
     return push(w, &part);
 }
 
+/* A text is a union of its glyphs. */
+static bool push_glyphs(struct work *w, const struct task *t)
+{
+    const struct brume_shape *s = &w->scene->shapes[t->shape];
+    for (size_t i = 0; i < s->count; i += 1 + 8 * (size_t)s->data[i]) {
+        struct task part = *t;
+        part.glyph = i;
+        if (!push(w, &part))
+            return false;
+    }
+    return true;
+}
+
 static bool is_plain_union(const struct brume_shape *s)
 {
-    return s->kind == BRUME_SHAPE_UNION && s->clip_count == 0 && !s->inverse;
+    bool many = s->kind == BRUME_SHAPE_UNION || s->kind == BRUME_SHAPE_TEXT;
+    return many && s->clip_count == 0 && !s->inverse;
+}
+
+static bool push_inner(struct work *w, const struct task *t,
+                       const matrix *place)
+{
+    return shape_is_composite(&w->scene->shapes[t->shape])
+               ? push_parts(w, t, place)
+               : push_glyphs(w, t);
 }
 
 /* What the task's shape adds to what it has got. */
@@ -212,8 +234,10 @@ static bool lay_out(struct work *w, struct task t)
     const struct brume_shape *s = &w->scene->shapes[t.shape];
     matrix own = matrix_from(s->transform);
     matrix place = matrix_compose(&t.by, &own);
-    bool composite = shape_is_composite(s), clips = s->clip_count > 0;
-    if (clips && !t.clipped) {
+    bool glyph = t.glyph != LEAF_ALL;
+    bool text = s->kind == BRUME_SHAPE_TEXT && !glyph;
+    bool composite = shape_is_composite(s) || text;
+    if (s->clip_count > 0 && !t.clipped) {
         if (t.whole < 0) {
             struct task top = t;
             inherit(s, &top);
@@ -222,9 +246,10 @@ static bool lay_out(struct work *w, struct task t)
         }
         return push_clips(w, &t, &place);
     }
-    inherit(s, &t);
-    if (t.whole < 0 && is_plain_union(s))
-        return push_parts(w, &t, &place);
+    if (!glyph)
+        inherit(s, &t);
+    if (t.whole < 0 && composite && is_plain_union(s))
+        return push_inner(w, &t, &place);
     bool alone = t.whole < 0 && !composite;
     if (t.whole < 0 && (t.whole = add_whole(w, &t)) < 0)
         return false;
@@ -232,7 +257,7 @@ static bool lay_out(struct work *w, struct task t)
     if (!composite)
         return add_part(w, &t, &place, alone);
     t.parent = place_node(w, &t, operation(s->kind, &t));
-    return t.parent >= 0 && push_parts(w, &t, &place);
+    return t.parent >= 0 && push_inner(w, &t, &place);
 }
 
 static bool run(struct work *w, int shape)

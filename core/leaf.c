@@ -1,7 +1,11 @@
 /* Frames, numbers and bounds of each kind of primitive. */
 #include "core/leaf.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include "core/physics/leaf.h"
+#include "core/surfaces.h"
+#include "lib/memory.h"
 
 static void normalize(double v[3])
 {
@@ -133,9 +137,44 @@ static bool make_polygon(const struct brume_shape *in, struct arena *arena,
     return true;
 }
 
-static bool make_solid(const struct brume_shape *in, struct arena *arena,
+/* The segments of one glyph of a text or of all; the number. */
+static size_t text_segments(const struct brume_shape *in, size_t glyph,
+                            double *out)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < in->count; i += 1 + 8 * (size_t)in->data[i]) {
+        size_t segments = (size_t)in->data[i];
+        if (glyph != LEAF_ALL && glyph != i)
+            continue;
+        memcpy(out + 8 * count, in->data + i + 1, 8 * segments * sizeof *out);
+        count += segments;
+    }
+    return count;
+}
+
+/* A prism along z. */
+static bool make_text(const struct leaf_request *r, struct arena *arena,
+                      struct leaf *out, matrix *local, struct brume_error *err)
+{
+    static const double upright[3][4] = {
+        {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}};
+    const struct brume_shape *in = r->shape;
+    double *points = memory_new(in->count + 1, sizeof *points, err);
+    if (!points)
+        return false;
+    size_t segments = text_segments(in, r->glyph, points);
+    out->kind = SOLID_PRISM;
+    *local = matrix_from(upright);
+    bool good = solid_prism(arena, BRUME_CURVE_BEZIER, false, false, 0.0,
+                            in->radius, points, 4 * segments, &out->solid, err);
+    free(points);
+    return good;
+}
+
+static bool make_solid(const struct leaf_request *r, struct arena *arena,
                        struct leaf *out, matrix *local, struct brume_error *err)
 {
+    const struct brume_shape *in = r->shape;
     struct solid *solid = &out->solid;
     switch (in->kind) {
     case BRUME_SHAPE_TORUS:
@@ -157,6 +196,21 @@ static bool make_solid(const struct brume_shape *in, struct arena *arena,
         out->kind = SOLID_BLOB;
         return solid_blob(arena, in->radius, in->data,
                           in->count / BRUME_BLOB_NUMBERS, solid, err);
+    case BRUME_SHAPE_TEXT:
+        return make_text(r, arena, out, local, err);
+    case BRUME_SHAPE_LATHE:
+        out->kind = SOLID_LATHE;
+        return solid_lathe(arena, in->curve, in->data, in->count / 2, solid,
+                           err);
+    case BRUME_SHAPE_PRISM:
+        out->kind = SOLID_PRISM;
+        out->flags |= in->open ? SHAPE_OPEN : 0;
+        return solid_prism(arena, in->curve, in->conic, false, in->radius,
+                           in->radius_b, in->data, in->count / 2, solid, err);
+    case BRUME_SHAPE_SOR:
+        out->kind = SOLID_SOR;
+        out->flags |= in->open ? SHAPE_OPEN : 0;
+        return solid_sor(arena, false, in->data, in->count / 2, solid, err);
     default:
         return make_polygon(in, arena, out, local, err);
     }
@@ -250,18 +304,38 @@ static struct box solid_box(const struct solid *solid)
     return out;
 }
 
-static void take_mesh(const struct leaf_request *r, struct leaf *out)
+/* A mesh of the scene, or one that is made of the shape's numbers. */
+static bool take_mesh(const struct leaf_request *r, struct leaf *out,
+                      struct brume_error *err)
 {
-    const double *v = r->shape->a;
+    const struct brume_shape *in = r->shape;
+    const double *v = in->a, up[3] = {0.0, 1.0, 0.0};
+    bool heights = in->kind == BRUME_SHAPE_HEIGHT_FIELD;
+    if (heights)
+        out->made = surface_heights(in, r->closed, &out->seen_triangles, err);
+    else if (in->kind == BRUME_SHAPE_BICUBIC_PATCH)
+        out->made = surface_patch(in, err);
+    out->mesh = in->kind == BRUME_SHAPE_MESH ? r->scene->meshes[in->mesh]
+                                             : out->made;
+    if (!out->mesh)
+        return false;
+    if (!heights)
+        out->seen_triangles = out->mesh->triangles;
     out->kind = SHAPE_MESH;
-    out->mesh = r->scene->meshes[r->shape->mesh];
-    out->seen_triangles = out->mesh->triangles;
     for (int i = 0; i < 3; i++)
-        out->inside[i] = v[i];
-    if (r->closed && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)
+        out->inside[i] = heights ? up[i] : v[i];
+    if (in->kind == BRUME_SHAPE_BICUBIC_PATCH ||
+        (r->closed && !heights && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0))
         out->flags |= SHAPE_THIN;
     out->map = *r->place;
     out->bounds = mesh_bounds(out->mesh, &out->map);
+    return true;
+}
+
+static bool is_mesh(enum brume_shape_kind kind)
+{
+    return kind == BRUME_SHAPE_MESH || kind == BRUME_SHAPE_BICUBIC_PATCH ||
+           kind == BRUME_SHAPE_HEIGHT_FIELD;
 }
 
 bool leaf_make(const struct leaf_request *r, struct arena *arena,
@@ -270,21 +344,21 @@ bool leaf_make(const struct leaf_request *r, struct arena *arena,
     const struct brume_shape *in = r->shape;
     matrix local = matrix_identity();
     *out = (struct leaf){.kind = SHAPE_MESH};
-    if (in->kind == BRUME_SHAPE_MESH) {
-        take_mesh(r, out);
-    } else if (in->kind < BRUME_SHAPE_MESH) {
+    if (is_mesh(in->kind))
+        return take_mesh(r, out, err);
+    if (in->kind < BRUME_SHAPE_MESH) {
         local = make_shape(in, out);
         out->map = matrix_compose(r->place, &local);
         out->bounds = shape_bounds(out->kind, &out->map);
-    } else {
-        if (!make_solid(in, arena, out, &local, err))
-            return false;
-        out->map = matrix_compose(r->place, &local);
-        struct box own = solid_box(&out->solid);
-        out->bounds = box_transform(&own, &out->map);
-        if (!out->solid.bounded)
-            out->flags |= SHAPE_ENDLESS;
+        return true;
     }
+    if (!make_solid(r, arena, out, &local, err))
+        return false;
+    out->map = matrix_compose(r->place, &local);
+    struct box own = solid_box(&out->solid);
+    out->bounds = box_transform(&own, &out->map);
+    if (!out->solid.bounded)
+        out->flags |= SHAPE_ENDLESS;
     return true;
 }
 

@@ -29,17 +29,17 @@ static const struct rule rules[] = {
     [BRUME_SHAPE_OVUS] = {"an ovus", 0, 0, true, true},
     [BRUME_SHAPE_BLOB] = {"a blob", BRUME_BLOB_NUMBERS, BRUME_BLOB_NUMBERS,
                           true, true},
-    [BRUME_SHAPE_LATHE] = {"a lathe", 4, 2, true, false},
-    [BRUME_SHAPE_PRISM] = {"a prism", 6, 2, true, false},
-    [BRUME_SHAPE_SOR] = {"a sor", 8, 2, true, false},
+    [BRUME_SHAPE_LATHE] = {"a lathe", 4, 2, true, true},
+    [BRUME_SHAPE_PRISM] = {"a prism", 6, 2, true, true},
+    [BRUME_SHAPE_SOR] = {"a sor", 8, 2, true, true},
     [BRUME_SHAPE_SPHERE_SWEEP] = {"a sphere_sweep", 8, 4, true, false},
     [BRUME_SHAPE_JULIA] = {"a julia_fractal", 11, 0, true, false},
     [BRUME_SHAPE_ISOSURFACE] = {"an isosurface", 0, 0, false, false},
     [BRUME_SHAPE_PARAMETRIC] = {"a parametric", 4, 0, false, false},
     [BRUME_SHAPE_POLYGON] = {"a polygon", 9, 3, true, true},
-    [BRUME_SHAPE_BICUBIC_PATCH] = {"a bicubic_patch", 48, 0, true, false},
-    [BRUME_SHAPE_HEIGHT_FIELD] = {"a height_field", 4, 1, true, false},
-    [BRUME_SHAPE_TEXT] = {"a text", 0, 1, true, false},
+    [BRUME_SHAPE_BICUBIC_PATCH] = {"a bicubic_patch", 48, 0, true, true},
+    [BRUME_SHAPE_HEIGHT_FIELD] = {"a height_field", 4, 1, true, true},
+    [BRUME_SHAPE_TEXT] = {"a text", 0, 1, true, true},
     [BRUME_SHAPE_UNION] = {"a union", 0, 0, true, true},
     [BRUME_SHAPE_MERGE] = {"a merge", 0, 0, true, true},
     [BRUME_SHAPE_INTERSECTION] = {"an intersection", 0, 0, true, true},
@@ -93,6 +93,39 @@ static bool check_look(const brume_scene *scene, const struct brume_shape *s,
            check_id(interior, scene->interiors_count, true, "interior", err);
 }
 
+static bool check_heights(const struct brume_shape *s, struct brume_error *err)
+{
+    size_t columns = (size_t)s->steps[0], rows = (size_t)s->steps[1];
+    bool sizes = s->steps[0] >= 2 && s->steps[1] >= 2 &&
+                 s->steps[0] < 1 << 15 && s->steps[1] < 1 << 15;
+    return (sizes && s->count == columns * rows) ||
+           brume_fail(err, BRUME_ERR_SCENE,
+                      "a height_field of %d columns and %d rows has %zu "
+                      "heights",
+                      s->steps[0], s->steps[1], s->count);
+}
+
+/* Each glyph says how many segments it has. */
+static bool check_glyphs(const struct brume_shape *s, struct brume_error *err)
+{
+    size_t at = 0;
+    while (at < s->count) {
+        double segments = s->data[at++];
+        if (!(segments >= 1.0 && segments <= (double)((s->count - at) / 8)))
+            return brume_fail(err, BRUME_ERR_SCENE,
+                              "a glyph of a text has %g segments", segments);
+        at += 8 * (size_t)segments;
+    }
+    return true;
+}
+
+static bool check_layout(const struct brume_shape *s, struct brume_error *err)
+{
+    if (s->kind == BRUME_SHAPE_HEIGHT_FIELD)
+        return check_heights(s, err);
+    return s->kind != BRUME_SHAPE_TEXT || check_glyphs(s, err);
+}
+
 bool shape_check(const brume_scene *scene, const struct brume_shape *s,
                  struct brume_error *err)
 {
@@ -108,7 +141,7 @@ bool shape_check(const brume_scene *scene, const struct brume_shape *s,
         !check_finite(radii, 2, "a shape's radius", err) ||
         !check_transform(s->transform, "a shape", err) ||
         !check_look(scene, s, err) || !check_data(s, err) ||
-        !check_parts(scene, s, err))
+        !check_layout(s, err) || !check_parts(scene, s, err))
         return false;
     if (s->kind == BRUME_SHAPE_MESH)
         return check_id(s->mesh, scene->meshes_count, false, "mesh", err);

@@ -23,9 +23,10 @@ HD bool bvh_accept(const flat_scene *s, const bvh_ray *r, bool out,
     return csg_crossing(s, f, &at, h);
 }
 
+/* Faces of solids that close them have negative numbers. */
 HD bool bvh_seen(const flat_shape *f, int surface)
 {
-    bool cap = surface == SHAPE_BOTTOM || surface == SHAPE_TOP;
+    bool cap = leaf_is_solid(f) ? surface < 0 : surface != SHAPE_SIDE;
     return !(f->flags & SHAPE_UNSEEN) && !(cap && (f->flags & SHAPE_OPEN));
 }
 

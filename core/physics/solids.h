@@ -2,10 +2,13 @@
 #ifndef CORE_PHYSICS_SOLIDS_H
 #define CORE_PHYSICS_SOLIDS_H
 #include "core/physics/solid_blob.h"
+#include "core/physics/solid_lathe.h"
 #include "core/physics/solid_ovus.h"
 #include "core/physics/solid_poly.h"
 #include "core/physics/solid_polygon.h"
+#include "core/physics/solid_prism.h"
 #include "core/physics/solid_quadric.h"
+#include "core/physics/solid_sor.h"
 #include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 
@@ -16,7 +19,10 @@
     X(POLY, poly)                                                             \
     X(SUPERELLIPSOID, superellipsoid)                                         \
     X(OVUS, ovus)                                                             \
-    X(BLOB, blob)
+    X(BLOB, blob)                                                             \
+    X(LATHE, lathe)                                                           \
+    X(PRISM, prism)                                                           \
+    X(SOR, sor)
 
 enum {
     SOLID_POLYGON = 16,
