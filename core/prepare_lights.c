@@ -48,6 +48,19 @@ static void set_area(const struct flat *f, const struct brume_light *in,
             out->side[i] = unit_vector(f, in->area_axis[i]);
 }
 
+/* An area that is lit from all over is as blunt as it is wide. */
+static void set_fall_off(const struct flat *f, const struct brume_light *in,
+                         flat_light *out)
+{
+    bool fades = in->fade_distance > 0.0 && in->fade_power > 0.0;
+    out->local = !out->parallel && (f->view.physical_units || fades);
+    if (!f->view.physical_units)
+        out->blunt = out->fade_distance;
+    if (out->illumination)
+        out->blunt = fmaxf(out->blunt, 0.5f * fmaxf(vec3_length(out->side[0]),
+                                                    vec3_length(out->side[1])));
+}
+
 static bool add_light(const struct prepare *job, const struct brume_light *in,
                       struct brume_error *err)
 {
@@ -72,6 +85,8 @@ static bool add_light(const struct prepare *job, const struct brume_light *in,
     out->media_attenuation = in->media_attenuation;
     set_place(f, in, out);
     set_area(f, in, out);
+    set_fall_off(f, in, out);
+    f->view.local_lights |= out->local;
     return true;
 }
 

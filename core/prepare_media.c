@@ -10,10 +10,9 @@
 /* More cells than this and the lattice itself would be the cost. */
 #define MAX_CELLS ((size_t)1 << 27)
 
-/* Emission samples per voxel that a ray crosses, and in a medium without a
- * grid per unit-space length (the scene is about 1 long). */
+/* Emission samples per voxel that a ray crosses; a medium without a grid needs
+ * none, and has a rate only to say that it emits. */
 #define SAMPLES_PER_VOXEL 1.0
-#define SAMPLES_PER_UNIT 8.0
 
 /* Weight of finding emission along a ray against choosing a glowing voxel, in
  * units of the emission samples' rate. On the campfire the error fell from
@@ -285,7 +284,7 @@ static bool make_bounds(const struct prepare *job, flat_medium *m,
     struct lattice l = {.flat = job->flat, .medium = m};
     int lead = lead_field(job->flat, m);
     m->uniform = lead < 0;
-    l.rate = SAMPLES_PER_UNIT;
+    l.rate = 1.0f;
     if (m->uniform)
         m->outside = cell_bound(&l, bound_everywhere, NULL, NULL);
     else if (!make_lattice(job, &l, lead, err))

@@ -12,6 +12,7 @@
  * march.h's, which has no noise; the path leaves them out there. */
 #ifndef CORE_PHYSICS_PATH_H
 #define CORE_PHYSICS_PATH_H
+#include "core/physics/equiangular.h"
 #include "core/physics/glow.h"
 #include "core/physics/light.h"
 #include "core/physics/line.h"
@@ -22,6 +23,22 @@
 
 enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
 
+/* The media of a segment, seen coarsely: what both ways of lighting its
+ * points agree on. */
+typedef struct {
+    int32_t on;             /* lights are sought along the ray too         */
+    float first, last;      /* where there are media                       */
+    float scatter, stop;    /* mean drawn scattering, and all that ends a
+                               flight, between them                        */
+} path_stretch;
+
+/* A scattering event. */
+typedef struct {
+    float t;
+    int32_t medium;
+    float sigma_s;          /* of all media there, mean over channels      */
+} path_event;
+
 typedef struct {
     rgb beta, r_u;
     rgb radiance;           /* gathered so far                             */
@@ -29,6 +46,7 @@ typedef struct {
     int32_t straight;       /* still on the line from the eye              */
     float boost;            /* scattering events of this segment are drawn
                                so many times as often, and weigh so much less */
+    path_stretch stretch;
     float p_dir;            /* density per solid angle with which d was
                                chosen at o; 0: not chosen                  */
     vec3 o, d;
@@ -78,7 +96,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
         out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
         out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
-        if (bound->rate == 0.0f || p->straight)
+        if (bound->rate == 0.0f || p->straight || m->uniform)
             continue;
         rgb q = medium_source(s, m, &at, density);
         if (rgb_is_black(q))
@@ -99,26 +117,59 @@ HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < w->count; i++) {
         const majorant_cell *b = &w->part[i].bound;
-        rgb sigma = rgb_scale(s->media[w->part[i].medium].bound, b->density);
-        sum = rgb_add(sum, sigma);
-        if (emission)
+        const flat_medium *m = &s->media[w->part[i].medium];
+        sum = rgb_add(sum, rgb_scale(m->bound, b->density));
+        if (emission && !m->uniform)
             sum = rgb_add(sum, rgb_gray(b->rate));
     }
     return sum;
 }
 
 /* Majorant transmittance of each channel over that of the driver. */
-HD void path_fly(path_state *p, rgb majorant, float distance)
+HD rgb path_ratio(const path_state *p, rgb majorant, float distance)
 {
     float driver = rgb_get(majorant, p->driver);
     rgb over = rgb_sub(majorant, rgb_gray(driver));
     if (rgb_is_black(over))
-        return;
-    rgb ratio = rgb_make(fm_exp(-over.r * distance),
-                         fm_exp(-over.g * distance),
-                         fm_exp(-over.b * distance));
+        return rgb_gray(1.0f);
+    return rgb_make(fm_exp(-over.r * distance), fm_exp(-over.g * distance),
+                    fm_exp(-over.b * distance));
+}
+
+HD void path_fly(path_state *p, rgb majorant, float distance)
+{
+    rgb ratio = path_ratio(p, majorant, distance);
     p->beta = rgb_mul(p->beta, ratio);
     p->r_u = rgb_mul(p->r_u, ratio);
+}
+
+/* Emission per length of the homogeneous media of a walk that no straight
+ * line counts. */
+HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
+                           const media_walk *w)
+{
+    rgb sum = rgb_gray(0.0f);
+    field_point anywhere = field_point_make(s, -1, p->o);
+    for (int i = 0; i < w->count && !p->straight; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        if (m->uniform && m->emits)
+            sum = rgb_add(sum, medium_source(s, m, &anywhere,
+                                             m->outside.density));
+    }
+    return sum;
+}
+
+/* A flight over `distance` gathers that emission all along, as its end is
+ * drawn with the transmittance; where that differs in the channels, at a
+ * point of it. */
+HD void path_gather(path_state *p, rgb source, rgb majorant, float distance)
+{
+    if (rgb_is_black(source))
+        return;
+    rgb ratio = path_ratio(p, majorant, distance * rng_float(&p->random));
+    rgb value = rgb_mul(rgb_mul(p->beta, ratio), rgb_scale(source, distance));
+    p->radiance = rgb_add(p->radiance,
+        rgb_scale(value, 1.0f / rgb_mean(rgb_mul(p->r_u, ratio))));
 }
 
 HD int path_null(path_state *p, const path_point *at, rgb majorant)
@@ -169,32 +220,37 @@ HD float path_room(const path_state *p)
     return p->boost > 1.0f ? 2.0f * p->boost : 1.0f;
 }
 
-/* Delta tracking to t1. On PATH_SCATTERED, *t and *medium tell where. */
-HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
-                  int *medium)
+/* Delta tracking to t1. On PATH_SCATTERED, *out tells where. */
+HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
+                  path_event *out)
 {
     float tau = rng_optical_depth(&p->random);
+    rgb source = path_uniform_source(s, p, w);
     do {
         rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
                                  path_room(p));
         float driver = rgb_get(majorant, p->driver);
-        *t = w->t;
+        float t = w->t;
         for (;;) {
-            float left = driver * (w->t_end - *t);
+            float left = driver * (w->t_end - t);
             if (!(tau < left)) {
-                path_fly(p, majorant, w->t_end - *t);
+                path_gather(p, source, majorant, w->t_end - t);
+                path_fly(p, majorant, w->t_end - t);
                 tau -= left;
                 break;
             }
+            path_gather(p, source, majorant, tau / driver);
             path_fly(p, majorant, tau / driver);
-            *t += tau / driver;
+            t += tau / driver;
             tau = rng_optical_depth(&p->random);
             path_point at;
             int which;
-            path_point_at(s, p, w, *t, majorant, &at);
+            path_point_at(s, p, w, t, majorant, &at);
             int event = path_collide(p, w, &at, majorant, &which);
+            out->t = t;
             if (event == PATH_SCATTERED) {
-                *medium = w->part[which].medium;
+                out->medium = w->part[which].medium;
+                out->sigma_s = rgb_mean(at.all_s);
                 p->count->collisions++;
             }
             if (event != PATH_THROUGH)
@@ -204,18 +260,22 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w, float *t,
     return PATH_THROUGH;
 }
 
-/* Scattering of all active media in the middle of the walk's piece. */
+/* Scattering, and in *all attenuation, of all active media in the middle of
+ * the walk's piece. */
 HD float path_middle(const flat_scene *s, const path_state *p,
-                     const media_walk *w)
+                     const media_walk *w, float *all)
 {
     float t = 0.5f * (w->t + w->t_end), sum = 0.0f;
     vec3 x = vec3_mad(p->o, t, p->d);
+    *all = 0.0f;
     for (int i = 0; i < w->count; i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         if (w->part[i].bound.density == 0.0f)
             continue;
         field_point at = lattice_point(s, &w->part[i], x, t);
-        sum += rgb_max(m->sigma_s) * medium_density(s, m, &at);
+        float density = medium_density(s, m, &at);
+        sum += rgb_max(m->sigma_s) * density;
+        *all += rgb_max(m->sigma_t) * density;
     }
     return sum;
 }
@@ -224,16 +284,39 @@ HD float path_middle(const flat_scene *s, const path_state *p,
  * to about one a ray, by one look at each piece. Each then carries less, and
  * what passes unscattered as much more as it comes less often: unbiased for
  * any factor that only the ray decides. */
-HD float path_boost(const flat_scene *s, const path_state *p, float t1)
+HD float path_boost(const path_state *p, float tau)
 {
     const float enough = 1.5f, most = 8.0f;
+    return p->straight ? hd_max(hd_min(enough / tau, most), 1.0f) : 1.0f;
+}
+
+/* Looks at each piece once, as far as it matters. */
+HD void path_look(const flat_scene *s, path_state *p, float t1)
+{
+    const float enough = 1.5f;
     media_walk w;
-    float tau = 0.0f;
+    float scattered = 0.0f, lost = 0.0f, all;
+    path_stretch *look = &p->stretch;
+    look->on = s->local_lights;
+    look->first = look->last = p->after.t;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
     do {
-        tau += path_middle(s, p, &w) * (w.t_end - w.t);
-    } while (tau < enough && walk_next(s, &w));
-    return hd_max(hd_min(enough / tau, most), 1.0f);
+        float length = w.t_end - w.t;
+        float sigma_s = path_middle(s, p, &w, &all);
+        if (!(lost > 0.0f))
+            look->first = w.t;
+        if (all > 0.0f)
+            look->last = w.t_end;
+        scattered += sigma_s * length;
+        lost += all * length;
+    } while ((look->on || scattered < enough) && walk_next(s, &w));
+    p->boost = path_boost(p, scattered);
+    float length = look->last - look->first;
+    look->on = look->on && scattered > 0.0f && length > 0.0f;
+    look->scatter = p->boost * scattered / length;
+    look->stop = look->scatter + (lost - scattered) / length;
+    /* Not where next to nothing comes through. */
+    look->last = hd_min(look->last, look->first + 30.0f * length / lost);
 }
 
 HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
@@ -257,20 +340,6 @@ HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
     return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;
 }
 
-HD int path_media(const flat_scene *s, path_state *p, float t1, float *t,
-                  int *medium)
-{
-    media_walk w;
-    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
-    p->count->overflow += w.overflow;
-    if (w.count == 0)
-        return PATH_THROUGH;
-    if (!path_walk_scatters(s, &w))
-        return path_line(s, p, p->after.t, t1);
-    p->boost = p->straight ? path_boost(s, p, t1) : 1.0f;
-    return path_track(s, p, &w, t, medium);
-}
-
 /* ---- light that reaches a vertex --------------------------------------- */
 
 /* What a vertex makes of light from direction wi. */
@@ -278,6 +347,7 @@ typedef struct {
     vec3 p, d;              /* d: direction of the ray that came there     */
     const flat_medium *medium;      /* or NULL: a surface                  */
     const hit_point *surface;
+    const path_event *event;        /* in a medium, where the path found it */
 } path_vertex;
 
 /* Radiance toward the eye per light C at a surface or per 4 pi C (pi C in
@@ -312,6 +382,42 @@ HD bool path_faces(const path_vertex *v, vec3 wi)
     return !v->surface || vec3_dot(v->surface->ng, wi) > 0.0f;
 }
 
+/* What passes of the light of a sample. */
+HD rgb path_lit(const flat_scene *s, path_state *p, const path_vertex *v,
+                const light_sample *l)
+{
+    const flat_light *light = &s->lights[l->light];
+    if (!light->shadows)
+        return l->color;
+    container_set set = p->inside;
+    rgb left = shadow_transmittance(s, &set,
+        s->media_multiple || light->media_attenuation != 0,
+        path_origin(v, l->shadow_wi), l->shadow_wi, l->shadow_distance,
+        &p->random, p->count);
+    return rgb_mul(l->color, left);
+}
+
+HD equiangular path_angles(const path_state *p, const flat_light *l)
+{
+    return equiangular_make(p->o, p->d, p->stretch.first, p->stretch.last,
+                            l->position, l->blunt);
+}
+
+/* Share of a light at the distance t of the segment that is left to
+ * path_along: by the density of its choice and a coarse one of flights that
+ * end there, with scattering sigma_s. Any share would do, if both agree. */
+HD float path_along_share(const path_state *p, const flat_light *l, float t,
+                          float sigma_s)
+{
+    const path_stretch *look = &p->stretch;
+    if (!look->on || !l->local || !(t > look->first && t < look->last))
+        return 0.0f;
+    equiangular e = path_angles(p, l);
+    float flight = p->boost * sigma_s *
+                   fm_exp(-look->stop * (t - look->first));
+    return 1.0f / (1.0f + flight / equiangular_pdf(&e, t));
+}
+
 /* Next-event estimation to one of the lights. */
 HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
 {
@@ -321,18 +427,70 @@ HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
     const flat_light *light = &s->lights[l.light];
     if (v->medium && !light->media_interaction)
         return;
-    rgb value = rgb_mul(path_response(s, v, l.wi, light->shadows), l.color);
+    rgb value = path_response(s, v, l.wi, light->shadows);
+    if (v->medium)
+        value = rgb_scale(value, 1.0f -
+            path_along_share(p, light, v->event->t, v->event->sigma_s));
     if (rgb_is_black(value))
         return;
-    if (light->shadows) {
-        container_set set = p->inside;
-        rgb left = shadow_transmittance(s, &set,
-            s->media_multiple || light->media_attenuation != 0,
-            path_origin(v, l.shadow_wi), l.shadow_wi, l.shadow_distance,
-            &p->random, p->count);
-        value = rgb_mul(value, left);
-    }
+    value = rgb_mul(value, path_lit(s, p, v, &l));
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l.probability));
+}
+
+/* What the media at distance t of the segment scatter toward the eye of light
+ * from wi, per light C; their scattering in *sigma_s. */
+HD rgb path_scattered(const flat_scene *s, const path_state *p, float t,
+                      vec3 wi, float *sigma_s)
+{
+    vec3 x = vec3_mad(p->o, t, p->d);
+    rgb sum = rgb_gray(0.0f);
+    *sigma_s = 0.0f;
+    for (int i = -1; i < p->inside.count; i++) {
+        int32_t interior = i < 0 ? s->atmosphere
+                                 : s->shapes[p->inside.shape[i]].interior;
+        for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
+             k++) {
+            const flat_medium *m = &s->media[
+                s->interior_media[s->interiors[interior].first + k]];
+            field_point at = field_point_make(s, m->lead, x);
+            rgb sigma = rgb_scale(m->sigma_s, medium_density(s, m, &at));
+            float phase = phase_eval_between(m->phase, m->g, p->d, wi) *
+                          phase_pov_scale(m->phase);
+            *sigma_s += rgb_mean(sigma);
+            sum = rgb_add(sum, rgb_scale(sigma, phase));
+        }
+    }
+    return rgb_scale(sum, light_medium_factor(s));
+}
+
+/* Light of a near lamp that the segment's media scatter, at a point chosen by
+ * the lamp and not by a flight. */
+HD void path_along(const flat_scene *s, path_state *p)
+{
+    float probability, sigma_s;
+    int i = light_find(s, rng_float(&p->random), &probability);
+    const flat_light *light = &s->lights[i];
+    if (!light->local || !light->media_interaction || !(probability > 0.0f))
+        return;
+    equiangular e = path_angles(p, light);
+    float t = equiangular_sample(&e, rng_float(&p->random));
+    path_vertex v;
+    light_sample l;
+    v.p = vec3_mad(p->o, t, p->d);
+    v.surface = 0;
+    if (!light_reach(s, i, v.p, &p->random, &l))
+        return;
+    rgb value = path_scattered(s, p, t, l.wi, &sigma_s);
+    float share = path_along_share(p, light, t, sigma_s);
+    value = rgb_scale(value, share / (equiangular_pdf(&e, t) * probability));
+    if (rgb_is_black(value))
+        return;
+    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
+        p->after.t, t, &p->random, p->count));
+    if (rgb_is_black(value))
+        return;
+    value = rgb_mul(value, path_lit(s, p, &v, &l));
+    path_add(p, rgb_mul(p->beta, value));
 }
 
 /* Radiance per incident radiance and solid angle, cosine included, of light
@@ -429,6 +587,24 @@ HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_scale(rgb_mul(p->beta, value), weight));
 }
 
+HD int path_media(const flat_scene *s, path_state *p, float t1,
+                  path_event *event)
+{
+    media_walk w;
+    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    p->count->overflow += w.overflow;
+    if (w.count == 0)
+        return PATH_THROUGH;
+    if (!path_walk_scatters(s, &w))
+        return path_line(s, p, p->after.t, t1);
+    p->boost = 1.0f;
+    if (p->straight || s->local_lights)
+        path_look(s, p, t1);
+    if (p->stretch.on)
+        path_along(s, p);
+    return path_track(s, p, &w, event);
+}
+
 /* ---- vertices ---------------------------------------------------------- */
 
 HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
@@ -438,6 +614,7 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
     p->p_dir = pdf;
     p->after = hit_start(0.0f);
     p->straight = 0;
+    p->stretch.on = 0;
 }
 
 /* Russian roulette on the throughput; false ends the path. */
@@ -455,13 +632,15 @@ HD bool path_survives(path_state *p)
     return true;
 }
 
-HD bool path_scatter(const flat_scene *s, path_state *p, float t, int medium)
+HD bool path_scatter(const flat_scene *s, path_state *p,
+                     const path_event *event)
 {
     path_vertex v;
-    v.p = vec3_mad(p->o, t, p->d);
+    v.p = vec3_mad(p->o, event->t, p->d);
     v.d = p->d;
-    v.medium = &s->media[medium];
+    v.medium = &s->media[event->medium];
     v.surface = 0;
+    v.event = event;
     path_light(s, p, &v);
     if (!s->media_multiple)
         return false;
@@ -548,11 +727,10 @@ HD bool path_segment(const flat_scene *s, path_state *p,
     bvh_ray r = bvh_ray_make(p->o, p->d);
     p->count->rays++;
     ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
-    float t;
-    int medium;
-    int event = path_media(s, p, h.t, &t, &medium);
+    path_event at;
+    int event = path_media(s, p, h.t, &at);
     if (event == PATH_SCATTERED)
-        return path_scatter(s, p, t, medium);
+        return path_scatter(s, p, &at);
     if (event == PATH_ENDED)
         return false;
     if (h.shape >= 0)

@@ -167,6 +167,8 @@ typedef struct {
     vec3 side[2];           /* the area's axes; of a disc, side[0] is its
                                diameter long                               */
     int32_t shadows, media_interaction, media_attenuation;
+    int32_t local;          /* has a place, and falls off from there       */
+    float blunt;            /* but little within this distance             */
     float cumulative;       /* probability of this and all before          */
 } flat_light;
 
@@ -236,6 +238,7 @@ typedef struct {
     int32_t atmosphere;     /* an interior, or -1                          */
     int32_t media_multiple, surfaces_indirect, environment, physical_units;
     int32_t scatters;       /* some medium has sigma_s > 0                 */
+    int32_t local_lights;   /* some light is local                         */
     float unit;             /* unit-space lengths per scene unit           */
     float far;              /* where rays end                              */
 } flat_scene;

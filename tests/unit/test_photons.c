@@ -86,16 +86,17 @@ static void follow(const flat_scene *s, uint64_t photon, double tally[SHELLS])
 {
     const container_set nowhere = {0, 0, {0}};
     rng random = rng_make(1, 0, 0, photon);
-    float u = rng_float(&random), t = 0.0f;
+    float u = rng_float(&random);
     vec3 d = warp_sphere(u, rng_float(&random));
     path_state p;
     track_counters count = {0, 0, 0, 0, 0, 0, 0};
-    int medium = 0, event;
+    path_event at = {0.0f, 0, 0.0f};
+    int event;
     path_begin(&p, vec3_make(0.0f, 0.0f, 0.0f), d, &nowhere, false, random);
     p.count = &count;
     do {
-        event = path_media(s, &p, s->far, &t, &medium);
-        double length = event == PATH_THROUGH ? (double)s->far : (double)t;
+        event = path_media(s, &p, s->far, &at);
+        double length = event == PATH_THROUGH ? (double)s->far : (double)at.t;
         for (int i = 0; i < SHELLS; i++)
             tally[i] += length_in_ball(p.o, p.d, length,
                                        edges[i][1] * (double)s->unit) -
@@ -103,11 +104,11 @@ static void follow(const flat_scene *s, uint64_t photon, double tally[SHELLS])
                                        edges[i][0] * (double)s->unit);
         if (event != PATH_SCATTERED)
             return;
-        const flat_medium *m = &s->media[medium];
+        const flat_medium *m = &s->media[at.medium];
         float pdf, v = rng_float(&p.random);
         vec3 next = phase_sample(m->phase, m->g, p.d, v, rng_float(&p.random),
                                  &pdf);
-        path_turn(&p, vec3_mad(p.o, t, p.d), next, pdf);
+        path_turn(&p, vec3_mad(p.o, at.t, p.d), next, pdf);
     } while (event == PATH_SCATTERED);
 }
 

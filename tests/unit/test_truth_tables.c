@@ -1,0 +1,282 @@
+/* Pictures against every row of the tables of METHODS.md, section 13.
+ *
+ *     test_truth_tables                 the sample that `make test` runs
+ *     test_truth_tables all [NAME]...   all rows, or those with such names
+ *     test_truth_tables table [NAME]... the same as a table of Markdown
+ *
+ * A row passes with |z| < 4, z = (mean - truth) / sqrt(SE^2 + u^2) over 32
+ * batches, at a standard error SE <= max(truth / 1000, u). Where that would
+ * take more than SECONDS_A_ROW (60) of the processor, the row is `short`: the
+ * error it reached is told, and z still holds. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "tests/unit/truth_scenes.h"
+#include "tests/unit/truth_tables.h"
+
+enum { MOST_ROWS = 1024, BATCHES = 32 };
+
+struct result {
+    double mean, error, z, seconds;
+    int spp;
+    bool reached;
+};
+
+static struct truth_row *new_row(struct truth_row *rows, int *count)
+{
+    assert_true(*count < MOST_ROWS);
+    struct truth_row *r = &rows[(*count)++];
+    memset(r, 0, sizeof *r);
+    return r;
+}
+
+#define ROW(batch_of, truth_is, u_is, ...)                                     \
+    struct truth_row *r = new_row(rows, count);                                \
+    r->batch = batch_of;                                                       \
+    r->truth = truth_is;                                                       \
+    /* A picture is of floats. */                                              \
+    r->u = fmax(u_is, 2e-6 * fabs(r->truth));                                  \
+    snprintf(r->name, sizeof r->name, __VA_ARGS__)
+
+#define ROWS(table) ((int)(sizeof(table) / sizeof *(table)))
+
+static void add_t3(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t3); i++) {
+        ROW(batch_t3, truth_t3[i][1], 5e-10, "T3 tau=%g", truth_t3[i][0]);
+        r->p[0] = truth_t3[i][0];
+        r->sample = i == 2;
+    }
+}
+
+static void add_t4(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t4); i++)
+        for (int k = 0; k < ROWS(truth_t4_g); k++) {
+            double mu = truth_t4[i][0], gamma = truth_t4[i][1];
+            ROW(batch_t4, truth_t4[i][2 + k], 0.0, "T4 mu=%g gamma=%g g=%g", mu,
+                gamma, truth_t4_g[k]);
+            r->p[0] = mu;
+            r->p[1] = gamma;
+            r->p[2] = truth_t4_g[k];
+            r->sample = i % 6 == 1 && k == i / 6 + 1;
+        }
+}
+
+static void add_t5(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t5); i++)
+        for (int k = 0; k < ROWS(truth_t5_r); k++) {
+            double truth = truth_t5[i][1 + k];
+            /* The shell's width is allowed for to 2e-5. */
+            ROW(batch_t5, truth, 2e-5 * truth, "T5 albedo=%g r=%g",
+                truth_t5[i][0], truth_t5_r[k]);
+            r->p[0] = truth_t5[i][0];
+            r->p[1] = truth_t5_r[k];
+            r->sample = i == 0 && k == 2;
+        }
+}
+
+static void add_t5_lamp(struct truth_row *rows, int *count)
+{
+    for (int k = 0; k < 3; k++) {
+        ROW(batch_t5_lamp, truth_t5[5][1 + k], 0.0, "T5 lamp albedo=0.9 r=%g",
+            truth_t5_r[k]);
+        r->p[0] = 0.9;
+        r->p[1] = truth_t5_r[k];
+    }
+}
+
+static void add_t6(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t6); i++)
+        for (int k = 0; k < 2 * ROWS(truth_t6_tau); k++) {
+            double tau = truth_t6_tau[k / 2];
+            const double *t = truth_t6[i];
+            ROW(batch_t6, t[2 + k], 5e-7, "T6 %c g=%g albedo=%g tau=%g",
+                k % 2 ? 'T' : 'R', t[0], t[1], tau);
+            r->p[0] = t[0];
+            r->p[1] = t[1];
+            r->p[2] = tau;
+            r->p[3] = k % 2 == 0;
+            r->sample = (i == 0 && k == 4) || (i == 7 && k == 1) ||
+                        (i == 20 && k == 5);
+        }
+    for (int i = 0; i < 2 * ROWS(truth_t6_radiance); i++) {
+        const double *t = truth_t6_radiance[i / 2];
+        ROW(batch_t6_radiance, t[2 + i % 2], 5e-8, "T6 %s %g<-%g",
+            i % 2 ? "transmitted" : "reflected", t[0], t[1]);
+        r->p[0] = t[0];
+        r->p[1] = i % 2 ? -t[1] : t[1];
+        r->sample = i == 3;
+    }
+}
+
+static void add_t7_t9(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t7_slab); i++) {
+        ROW(batch_t7_slab, truth_t7_slab[i][1], 5e-8, "T7 slab mu=%g",
+            truth_t7_slab[i][0]);
+        r->p[0] = truth_t7_slab[i][0];
+        r->sample = i == 2;
+    }
+    for (int i = 0; i < ROWS(truth_t7_sphere); i++) {
+        ROW(batch_ball, truth_t7_sphere[i][1], 5e-9, "T7 ball tau=%g",
+            truth_t7_sphere[i][0]);
+        r->p[0] = truth_t7_sphere[i][0];
+        r->sample = i == 3;
+    }
+    for (int i = 0; i < 3 * ROWS(truth_t9); i++) {
+        const double *t = truth_t9[i / 3];
+        ROW(batch_ball, t[1 + i % 3], 2e-5, "T9 tau=%g albedo=%g", t[0],
+            truth_t9_albedo[i % 3]);
+        r->p[0] = t[0];
+        r->p[1] = truth_t9_albedo[i % 3];
+        r->sample = i == 7;
+    }
+}
+
+/* The row of albedo 1 is left out: no slab stands for that half-space, and
+ * its plane and spherical albedo are a furnace's (test_truths.c). */
+static void add_t8(struct truth_row *rows, int *count)
+{
+    const double cosine[3] = {0.1, 0.5, 1.0};
+    for (int i = 0; i < ROWS(truth_t8) - 1; i++) {
+        const double *t = truth_t8[i];
+        for (int k = 0; k < 3; k++) {
+            double l = t[0] * t[1 + k] * t[1 + k] / (8.0 * TRUTH_PI);
+            ROW(batch_t8_h, l, 1e-7 * l, "T8 H albedo=%g mu=%g", t[0],
+                cosine[k]);
+            r->p[0] = t[0];
+            r->p[1] = cosine[k];
+            r->sample = i == 5 && k == 0;
+        }
+        for (int k = 0; k < 3; k++) {
+            ROW(batch_t8_plane, t[6 - k], 5e-8, "T8 plane albedo=%g mu=%g",
+                t[0], cosine[k]);
+            r->p[0] = t[0];
+            r->p[1] = cosine[k];
+            r->sample = i == 2 && k == 2;
+        }
+        /* Gauss's rule of 8 is good to 2e-5. */
+        ROW(batch_t8_sphere, t[7], 2e-5, "T8 sphere albedo=%g", t[0]);
+        r->p[0] = t[0];
+    }
+}
+
+static void add_t13(struct truth_row *rows, int *count)
+{
+    for (int i = 0; i < ROWS(truth_t13); i++)
+        for (int c = 0; c < 4; c++) {
+            const double *t = truth_t13[i];
+            double ratio = t[1] / 3.0725e9;
+            ROW(batch_t13, c < 3 ? t[2 + c] : ratio,
+                c < 3 ? 5e-6 : 4e-5 * ratio, "T13 T=%g %s", t[0],
+                c < 3 ? (const char *[]){"R/Y", "G/Y", "B/Y"}[c] : "Y");
+            r->p[0] = t[0];
+            r->p[1] = c;
+            r->sample = i == 1 || i == 8;
+        }
+}
+
+static int all_rows(struct truth_row *rows)
+{
+    int count = 0;
+    add_t3(rows, &count);
+    add_t4(rows, &count);
+    add_t5(rows, &count);
+    add_t5_lamp(rows, &count);
+    add_t6(rows, &count);
+    add_t7_t9(rows, &count);
+    add_t8(rows, &count);
+    add_t13(rows, &count);
+    return count;
+}
+
+static void run_batches(const struct truth_row *row, int spp, uint32_t *frame,
+                        struct result *out)
+{
+    double sum = 0.0, squares = 0.0;
+    for (int i = 0; i < BATCHES; i++) {
+        double x = row->batch(row, spp, (*frame)++);
+        sum += x - row->truth;
+        squares += (x - row->truth) * (x - row->truth);
+    }
+    double mean = sum / BATCHES;
+    out->spp = spp;
+    out->mean = row->truth + mean;
+    out->error = sqrt(fmax(squares / BATCHES - mean * mean, 0.0) /
+                      (BATCHES - 1));
+    out->z = mean / hypot(out->error, row->u);
+}
+
+static double cpu_seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* Doubles as its own pilot: batches that were too small are thrown away, so
+ * that those that count have a size fixed before they ran. */
+static struct result run_row(const struct truth_row *row, double seconds)
+{
+    struct result out = {0};
+    double target = fmax(1e-3 * fabs(row->truth), row->u);
+    double start = cpu_seconds(), want = 1.0;
+    uint32_t frame = 0;
+    do {
+        double before = cpu_seconds();
+        run_batches(row, (int)ceil(want), &frame, &out);
+        double used = cpu_seconds() - before;
+        out.reached = out.error <= target;
+        double more = 1.1 * (out.error / target) * (out.error / target);
+        double fits = (seconds - (cpu_seconds() - start)) / used;
+        if (fits < 1.5)
+            break;
+        want = out.spp * fmin(fmin(fmax(more, 2.0), 50.0), fits);
+    } while (!out.reached && want < 1e6);
+    out.seconds = cpu_seconds() - start;
+    return out;
+}
+
+static bool asked(const char *name, int count, char **words)
+{
+    for (int i = 0; i < count; i++)
+        if (strstr(name, words[i]))
+            return true;
+    return count == 0;
+}
+
+static void report(const struct truth_row *row, const struct result *r,
+                   bool table)
+{
+    double relative = row->truth == 0.0 ? 0.0 : r->error / row->truth;
+    if (table)
+        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %s |\n", row->name,
+               row->truth, r->mean, relative, r->z, r->reached ? "" : "short");
+    else
+        printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, %.1f s%s\n",
+               fabs(r->z) < 4.0 ? "" : "not ", row->name, r->mean, row->truth,
+               relative, r->z, r->seconds, r->reached ? "" : ", short");
+    fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+    static struct truth_row rows[MOST_ROWS];
+    int count = all_rows(rows), bad = 0;
+    bool table = argc > 1 && strcmp(argv[1], "table") == 0;
+    bool sample = argc < 2;
+    const char *limit = getenv("SECONDS_A_ROW");
+    double seconds = limit ? atof(limit) : 60.0;
+    if (table)
+        printf("| row | truth | mean | SE / truth | z | CPU s | |\n"
+               "| --- | --- | --- | --- | --- | --- | --- |\n");
+    for (int i = 0; i < count; i++) {
+        if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
+            continue;
+        struct result r = run_row(&rows[i], seconds);
+        report(&rows[i], &r, table);
+        bad += !(fabs(r.z) < 4.0) || (sample && !r.reached);
+    }
+    return bad > 0;
+}
