@@ -58,8 +58,9 @@ HD real pattern_random(int number, int i)
 
 HD real pattern_cells(real3 p, const real *param)
 {
+    noise_cell c = noise_cell_of(real3_make(
+        p.x + PATTERN_EDGE, p.y + PATTERN_EDGE, p.z + PATTERN_EDGE));
     (void)param;
-    noise_cell c = noise_cell_of(p);
     return pattern_random(noise_number(c.x, c.y, c.z), 0);
 }
 

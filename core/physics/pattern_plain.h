@@ -10,6 +10,10 @@
 
 #define PATTERN_TURN REAL(6.283185307179586)    /* in radians */
 
+/* What a point may be short of the edge of a block or cell and count as in
+ * the next, so that planes along edges do not flicker. */
+#define PATTERN_EDGE REAL_CHOOSE(1e-10, 1e-5f)
+
 HD real pattern_boxed(real3 p, const real *param)
 {
     (void)param;
@@ -110,6 +114,20 @@ HD real pattern_spiral2(real3 p, const real *param)
 {
     return wave_triangle(pattern_spiral1(p, param))
          + wave_triangle(real_sqrt(p.x * p.x + p.y * p.y));
+}
+
+/* Unit cells, round inside; control0 and control1 shape the slope from the
+ * middle out as the ordinates of a cubic. */
+HD real pattern_quilted(real3 p, const real *param)
+{
+    real x = wave_fraction(p.x) - REAL(0.5);
+    real y = wave_fraction(p.y) - REAL(0.5);
+    real z = wave_fraction(p.z) - REAL(0.5);
+    real t = real3_length(real3_make(x, y, z)), s = REAL(1.0) - t;
+    real cubic = REAL(3.0) * s * t * (s * param[0] + t * param[1])
+               + t * t * t;
+    return (real_abs(x) + real_abs(y) + real_abs(z)) / REAL(3.0)
+         * cubic * REAL(1.154700538);
 }
 
 #endif

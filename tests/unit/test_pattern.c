@@ -6,7 +6,7 @@
 static void test_pattern__are_those_of_povray(void **state)
 {
     (void)state;
-    check_cases(1e9, 1e-8);
+    check_cases(1e9, 1e-8, 1);
 }
 
 static void test_pattern__are_finite_anywhere(void **state)

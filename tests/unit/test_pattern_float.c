@@ -5,8 +5,8 @@
 static void test_pattern_float__are_those_of_povray(void **state)
 {
     (void)state;
-    check_cases(3, 2e-4);
-    check_cases(40, 5e-3);
+    check_cases(3, 2e-4, 5);
+    check_cases(40, 5e-3, 8);
 }
 
 int main(void)
