@@ -75,4 +75,18 @@ bool solid_lathe(struct arena *arena, enum brume_curve curve,
 bool solid_sor(struct arena *arena, bool open, const double *points,
                size_t count, struct solid *solid, struct brume_error *err);
 
+/* Spheres of x, y, z and radius (0 or more): 2 or more for a linear spline, 4
+ * or more for a cubic one or a B-spline. */
+bool solid_sphere_sweep(struct arena *arena, enum brume_curve curve,
+                        const double *spheres, size_t count,
+                        struct solid *solid, struct brume_error *err);
+
+/* `numbers` are those of BRUME_SHAPE_JULIA in brume.h. Quaternions have sqr
+ * and cube; the slice's normal has a fourth coordinate that is not 0; a
+ * precision below 1 is taken as 1. */
+bool solid_julia(struct arena *arena, enum brume_julia_kind kind,
+                 enum brume_julia_function function, int iterations,
+                 double precision, const double numbers[11],
+                 struct solid *solid, struct brume_error *err);
+
 #endif

@@ -4,12 +4,14 @@
 #define TESTS_SOLIDS_H
 #include "core/brume.h"
 #include "core/physics/solid_blob.h"
+#include "core/physics/solid_julia.h"
 #include "core/physics/solid_lathe.h"
 #include "core/physics/solid_ovus.h"
 #include "core/physics/solid_poly.h"
 #include "core/physics/solid_prism.h"
 #include "core/physics/solid_quadric.h"
 #include "core/physics/solid_sor.h"
+#include "core/physics/solid_sphere_sweep.h"
 #include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 #include "core/solid.h"
@@ -24,6 +26,7 @@ struct solid_kind {
     bool (*inside)(const double *data, dvec3 p);
     double tolerance;       /* of POV-Ray's roots, for a size of 1          */
     bool either;            /* POV-Ray's normals may point inward           */
+    bool thin;              /* what is thin may be missed                   */
 };
 
 #define SOLID_BUILD(name)                                                     \
@@ -88,19 +91,37 @@ SOLID_BUILD(sor)
     return solid_sor(arena, n[0] != 0, n + 1, (count - 1) / 2, solid, err);
 }
 
-#define SOLID_KIND(name, tolerance, either)                                   \
+/* Curve, then the spheres. */
+SOLID_BUILD(sphere_sweep)
+{
+    return solid_sphere_sweep(arena, (enum brume_curve)n[0], n + 1,
+                              (count - 1) / 4, solid, err);
+}
+
+/* Hypercomplex, function, iterations, precision, then the numbers. */
+SOLID_BUILD(julia)
+{
+    (void)count;
+    return solid_julia(arena, (enum brume_julia_kind)n[0],
+                       (enum brume_julia_function)n[1], (int)n[2], n[3], n + 4,
+                       solid, err);
+}
+
+#define SOLID_KIND(name, tolerance, either, thin)                             \
     {#name, build_##name, name##_roots, name##_normal, name##_inside,         \
-     tolerance, either}
+     tolerance, either, thin}
 static const struct solid_kind solid_kinds[] = {
-    SOLID_KIND(torus, 1e-6, false),
-    SOLID_KIND(quadric, 1e-6, false),
-    SOLID_KIND(poly, 1e-6, false),
-    SOLID_KIND(superellipsoid, 1e-6, false),
-    SOLID_KIND(ovus, 1e-6, false),
-    SOLID_KIND(blob, 1e-5, false),
-    SOLID_KIND(prism, 1e-6, true),
-    SOLID_KIND(lathe, 1e-5, true),
-    SOLID_KIND(sor, 1e-6, false),
+    SOLID_KIND(torus, 1e-6, false, false),
+    SOLID_KIND(quadric, 1e-6, false, false),
+    SOLID_KIND(poly, 1e-6, false, false),
+    SOLID_KIND(superellipsoid, 1e-6, false, false),
+    SOLID_KIND(ovus, 1e-6, false, false),
+    SOLID_KIND(blob, 1e-5, false, false),
+    SOLID_KIND(prism, 1e-6, true, false),
+    SOLID_KIND(lathe, 1e-5, true, false),
+    SOLID_KIND(sor, 1e-6, false, false),
+    SOLID_KIND(sphere_sweep, 1e-5, false, false),
+    SOLID_KIND(julia, 1e-4, false, true),
 };
 enum { SOLID_KINDS = sizeof solid_kinds / sizeof *solid_kinds };
 

@@ -62,6 +62,22 @@ static const struct refusal refusals[] = {
     REFUSE("sor", "point 3 at height 1 is not above", 0, 1, 0, 1, 1, 1, 1, 1,
            3),
     REFUSE("sor", "number 8 is inf", 0, 1, 0, 1, 1, 1, 2, 1, INFINITY),
+    REFUSE("sphere_sweep", "along a Bezier spline", 3, 0, 0, 0, 1, 1, 0, 0, 1),
+    REFUSE("sphere_sweep", "1 spheres; expected 2", 0, 0, 0, 0, 1),
+    REFUSE("sphere_sweep", "2 spheres; expected 4", 2, 0, 0, 0, 1, 1, 0, 0, 1),
+    REFUSE("sphere_sweep", "sphere 2 has the radius -1", 0, 0, 0, 0, 1, 1, 0, 0,
+           -1),
+    REFUSE("sphere_sweep", "number 5 is nan", 0, 0, 0, 0, 1, NAN, 0, 0, 1),
+    REFUSE("julia", "expected the function sqr or cube", 0, 2, 8, 20, 0, 0, 0,
+           0, 0, 0, 0, 1, 0, 0, 0),
+    REFUSE("julia", "of 0 iterations", 0, 0, 0, 20, 0, 0, 0, 0, 0, 0, 0, 1, 0,
+           0, 0),
+    REFUSE("julia", "along its fourth", 0, 0, 8, 20, 0, 0, 0, 0, 1, 0, 0, 0, 0,
+           0, 0),
+    REFUSE("julia", "precision: number 1 is nan", 0, 0, 8, NAN, 0, 0, 0, 0, 0,
+           0, 0, 1, 0, 0, 0),
+    REFUSE("julia", "number 2 is inf", 0, 0, 8, 20, 0, INFINITY, 0, 0, 0, 0, 0,
+           1, 0, 0, 0),
 };
 
 static const struct solid_kind *kind_named(const char *name)
