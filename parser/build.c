@@ -381,61 +381,105 @@ static bool is_move(const struct param *row)
     return row >= move_rows && row < move_rows + 5;
 }
 
-/* The row of a word, and where in the node its values go. */
+/* The row of a word, and the group that it is of; NULL: the statement's own. */
 static const struct param *find_row(const struct statement *statement,
-                                    const char *word, size_t *offset)
+                                    const char *word,
+                                    const struct param_group **of)
 {
     const struct param *row = param_find(statement->params, word);
     const struct param_group *group = statement->groups;
 
-    *offset = 0;
+    *of = NULL;
     for (; !row && group && group->rows; group++) {
         row = param_find(group->rows, word);
-        *offset = group->offset;
+        *of = row ? group : NULL;
     }
     return row || !statement->move ? row : param_find(move_rows, word);
+}
+
+/* Where what the open row sets lies. NULL: reported. */
+static void *node_of(struct parser *parser, struct frame *frame,
+                     const struct param_group *group)
+{
+    if (group && group->node)
+        return group->node(parser, frame);
+    return (char *)frame->node + (group ? group->offset : 0);
 }
 
 bool build_claims(struct parser *parser, const struct name *word)
 {
     const struct frame *frame = build_top(parser);
-    size_t offset;
+    const struct param_group *group;
 
     return frame && frame->kind != BUILD_KINDS &&
-           find_row(build_statement_of(frame), word->text, &offset);
+           find_row(build_statement_of(frame), word->text, &group);
 }
 
 /* A parameter was set: what follows from that. */
 static void note_set(struct parser *parser, struct frame *frame,
-                     const struct param *row, struct location at)
+                     const struct param_group *group, const struct param *row,
+                     struct location at)
 {
+    const struct statement *statement = build_statement_of(frame);
+
     frame->given |= row->given;
     if (row->note)
         note_once(parser, row, at);
-    if (build_statement_of(frame)->set)
-        build_statement_of(frame)->set(parser, frame, row, at);
+    if (group && group->set)
+        group->set(parser, frame, row, at);
+    else if (statement->set)
+        statement->set(parser, frame, row, at);
 }
 
 bool build_knows(const char *word)
 {
-    size_t offset;
+    const struct param_group *group;
 
     for (int i = 0; i < BUILD_KINDS; i++)
         if (!strcmp(statements[i]->word, word) ||
-            find_row(statements[i], word, &offset))
+            find_row(statements[i], word, &group))
             return true;
     return false;
+}
+
+/* A row of PARAM_VALUES has all that it takes. */
+static void hand_over(struct parser *parser, struct frame *frame,
+                      const struct param *row, int count, struct location at)
+{
+    struct builder *builder = parser->builder;
+    const struct statement *statement = build_statement_of(frame);
+    const struct param_group *group;
+
+    frame->given |= row->given;
+    if (count == 0)
+        builder->value_at = at;
+    find_row(statement, row->word, &group);
+    if (group && group->values)
+        group->values(parser, frame, row, builder->value, count, at);
+    else
+        statement->values(parser, frame, row, builder->value, count, at);
+}
+
+static void store(struct parser *parser, struct frame *frame,
+                  const struct param *row, int count, struct location at)
+{
+    struct builder *builder = parser->builder;
+    const struct param_group *group;
+
+    find_row(build_statement_of(frame), row->word, &group);
+    void *node = node_of(parser, frame, group);
+    if (node && param_set(parser, row, node, at, builder->value, count,
+                          builder->value_at))
+        note_set(parser, frame, group, row, at);
 }
 
 /* A row's numbers are complete: stores them, or lets the statement do so. */
 static void finish_row(struct parser *parser, struct frame *frame)
 {
     struct builder *builder = parser->builder;
-    const struct statement *statement = build_statement_of(frame);
     const struct param *row = frame->row;
     struct location at = frame->row_at;
     int count = frame->values;
-    size_t offset;
 
     frame->row = NULL;
     frame->values = 0;
@@ -448,17 +492,9 @@ static void finish_row(struct parser *parser, struct frame *frame)
         apply_map(parser, frame, row->word, builder->value, count,
                   builder->value_at);
     } else if (row->kind == PARAM_VALUES) {
-        frame->given |= row->given;
-        if (count == 0)
-            builder->value_at = at;
-        statement->values(parser, frame, row, builder->value, count, at);
-    } else {
-        if (row == &lost_row)
-            return;
-        find_row(statement, row->word, &offset);
-        if (param_set(parser, row, (char *)frame->node + offset, at,
-                      builder->value, count, builder->value_at))
-            note_set(parser, frame, row, at);
+        hand_over(parser, frame, row, count, at);
+    } else if (row != &lost_row) {
+        store(parser, frame, row, count, at);
     }
 }
 
@@ -466,19 +502,20 @@ static void choose(struct parser *parser, struct frame *frame,
                    const struct name *word, struct location at)
 {
     const struct param *row = frame->row;
-    size_t offset;
+    const struct param_group *group;
 
     frame->row = NULL;
-    find_row(build_statement_of(frame), row->word, &offset);
-    if (param_choose(parser, row, (char *)frame->node + offset, word->text, at))
-        note_set(parser, frame, row, at);
+    find_row(build_statement_of(frame), row->word, &group);
+    void *node = node_of(parser, frame, group);
+    if (node && param_choose(parser, row, node, word->text, at))
+        note_set(parser, frame, group, row, at);
 }
 
 void build_word(struct parser *parser, const struct name *word,
                 struct location at)
 {
     struct frame *frame = build_top(parser);
-    size_t offset;
+    const struct param_group *group;
 
     if (frame && frame->row && frame->row->kind == PARAM_CHOICE) {
         choose(parser, frame, word, at);
@@ -488,7 +525,7 @@ void build_word(struct parser *parser, const struct name *word,
     if (!frame)
         return;
     const struct statement *statement = build_statement_of(frame);
-    const struct param *row = find_row(statement, word->text, &offset);
+    const struct param *row = find_row(statement, word->text, &group);
     if (!row) {
         report_unknown(parser, at, word->text, statement->word);
         row = &lost_row;
@@ -562,8 +599,9 @@ void build_argument(struct parser *parser, const struct value *value,
 /* Values that a statement around copies; it refers to others. */
 static bool is_copied(enum value_kind kind)
 {
-    return kind == VALUE_PIGMENT || kind == VALUE_FINISH ||
-           kind == VALUE_DENSITY || kind == VALUE_TRANSFORM;
+    return kind == VALUE_PIGMENT || kind == VALUE_NORMAL ||
+           kind == VALUE_FINISH || kind == VALUE_DENSITY ||
+           kind == VALUE_TRANSFORM;
 }
 
 void build_apply(struct parser *parser, const struct value *value,

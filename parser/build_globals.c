@@ -156,6 +156,7 @@ bool build_finish(struct parser *parser)
 
     if (parser->failed || !build_place_atmosphere(parser))
         return false;
+    build_report_lacks(parser);
     camera = parser->builder->camera;
     if (!camera)
         camera = &model_default_camera;

@@ -1,211 +1,11 @@
-/* build_media.c - density, scattering, fire, media and interior. */
+/* build_media.c - scattering, fire, media and interior. */
 #include <string.h>
 
 #include "parser/builder.h"
 
-/* ---- density: of a medium, and the fields of a fire -------------------- */
-
-static void open_density(struct parser *parser, struct frame *frame)
-{
-    struct density *density = frame->node;
-
-    parser->builder->file.format = NULL;
-    density->by = transform_identity();
-    for (int i = 0; i < 3; i++)
-        density->color[i] = 1;
-}
-
-static const struct param density_arguments[] = {
-    PARAM_ROW("color", PARAM_RGB, 1, 0, INFINITY, 0, 0, struct density, color),
-    {0}};
-
-static void apply_density(struct parser *parser, struct frame *frame,
-                          const struct value *value, struct location at)
-{
-    if (value->kind == VALUE_DENSITY)
-        *(struct density *)frame->node = *(const struct density *)value->node;
-    else
-        build_misplaced(parser, frame, value, at);
-}
-
-/* ---- the file of a density --------------------------------------------- */
-
-enum { FILE_NAMED, FILE_INTERPOLATE, FILE_FIT, FILE_UP };
-
-static const struct param density_params[] = {
-    PARAM_OWN("density_file", 0, 0, -1),
-    PARAM_OWN("df3", 1, 1, FILE_NAMED),
-    PARAM_OWN("vdb", 1, 2, FILE_NAMED),
-    PARAM_OWN("interpolate", 1, 1, FILE_INTERPOLATE),
-    PARAM_OWN("fit", 0, 0, FILE_FIT),
-    PARAM_OWN("up", 1, 1, FILE_UP),
-    {0}};
-
-static enum vdb_role role_of(enum build_kind kind)
-{
-    if (kind == BUILD_TEMPERATURE)
-        return VDB_TEMPERATURE;
-    return kind == BUILD_AMOUNT ? VDB_FLAME : VDB_DENSITY;
-}
-
-struct data_file data_file(const char *format, struct string name,
-                           struct location at)
-{
-    return (struct data_file){
-        .format = format, .name = name, .at = at, .interpolate = -1};
-}
-
-static void name_file(struct parser *parser, struct data_file *file,
-                      const struct param *row, const struct value *value,
-                      int count)
-{
-    for (int i = 0; i < count; i++)
-        if (value[i].kind != VALUE_STRING) {
-            parser_mistake(parser, parser->builder->value_at,
-                           "'%s' needs the name of a %s", row->word,
-                           i == 0 ? "file" : "grid");
-            return;
-        }
-    *file = data_file(row->word, value->string, parser->builder->value_at);
-    if (count > 1)
-        file->grid = value[1].string;
-}
-
-static void interpolate_file(struct parser *parser, struct data_file *file,
-                             const struct value *number, struct location at)
-{
-    double type = trunc(number->v[0]);
-
-    if (number->kind != VALUE_NUMBER || number->terms != 1 ||
-        !(type >= 0 && type <= 2))
-        parser_mistake(parser, at, "'interpolate' must be 0, 1 or 2");
-    else
-        file->interpolate = (int)type;
-}
-
-static void turn_file(struct parser *parser, struct data_file *file,
-                      const struct value *axis, struct location at)
-{
-    struct value v = value_promote(*axis, 3);
-    bool y = v.v[0] == 0 && v.v[1] == 1 && v.v[2] == 0;
-
-    file->up_z = v.v[0] == 0 && v.v[1] == 0 && v.v[2] == 1;
-    if (axis->kind != VALUE_NUMBER || (!y && !file->up_z))
-        parser_mistake(parser, at, "'up' must be y or z");
-}
-
-static void density_values(struct parser *parser, struct frame *frame,
-                           const struct param *row, const struct value *value,
-                           int count, struct location at)
-{
-    struct data_file *file = &parser->builder->file;
-
-    if (row->id == FILE_NAMED)
-        name_file(parser, file, row, value, count);
-    else if (row->id >= 0 && !file->format)
-        parser_mistake(parser, at, "'%s' belongs behind the name of a file",
-                       row->word);
-    else if (row->id == FILE_INTERPOLATE)
-        interpolate_file(parser, file, value, parser->builder->value_at);
-    else if (row->id == FILE_UP)
-        turn_file(parser, file, value, parser->builder->value_at);
-    else if (row->id == FILE_FIT)
-        file->fit = true;
-    (void)frame;
-}
-
-/* All that belongs to the file is said: what follows is about the density. */
-static void load_file(struct parser *parser, struct frame *frame)
-{
-    struct data_file *file = &parser->builder->file;
-
-    if (file->format)
-        load_density(parser, file, role_of(frame->kind), frame->node);
-    file->format = NULL;
-}
-
-static void move_density(struct parser *parser, struct frame *frame,
-                         const transform *by)
-{
-    struct density *density = frame->node;
-
-    load_file(parser, frame);
-    density->by = transform_then(&density->by, by);
-}
-
-static void close_density(struct parser *parser, struct frame *frame,
-                          struct location at)
-{
-    (void)at;
-    load_file(parser, frame);
-}
-
-const struct statement build_statement_density = {
-    .word = "density",
-    .makes = VALUE_DENSITY,
-    .takes = BUILD_TAKES(VALUE_DENSITY),
-    .size = sizeof(struct density),
-    .params = density_params,
-    .values = density_values,
-    .arguments = density_arguments,
-    .open = open_density,
-    .apply = apply_density,
-    .move = move_density,
-    .close = close_density,
-};
-
 /* ---- fire -------------------------------------------------------------- */
 
-static void close_temperature(struct parser *parser, struct frame *frame,
-                              struct location at)
-{
-    struct fire *fire = build_around(parser)->node;
-
-    close_density(parser, frame, at);
-    fire->on = true;
-    fire->temperature = *(const struct density *)frame->node;
-}
-
-static void close_amount(struct parser *parser, struct frame *frame,
-                         struct location at)
-{
-    struct fire *fire = build_around(parser)->node;
-
-    close_density(parser, frame, at);
-    fire->has_amount = true;
-    fire->amount = *(const struct density *)frame->node;
-}
-
-static const enum build_kind in_fire[] = {BUILD_FIRE, BUILD_KINDS};
 static const enum build_kind in_media[] = {BUILD_MEDIA, BUILD_KINDS};
-
-const struct statement build_statement_temperature = {
-    .word = "temperature",
-    .within = in_fire,
-    .takes = BUILD_TAKES(VALUE_DENSITY),
-    .size = sizeof(struct density),
-    .params = density_params,
-    .values = density_values,
-    .arguments = density_arguments,
-    .open = open_density,
-    .apply = apply_density,
-    .move = move_density,
-    .close = close_temperature,
-};
-
-const struct statement build_statement_amount = {
-    .word = "amount",
-    .within = in_fire,
-    .takes = BUILD_TAKES(VALUE_DENSITY),
-    .size = sizeof(struct density),
-    .params = density_params,
-    .values = density_values,
-    .arguments = density_arguments,
-    .open = open_density,
-    .apply = apply_density,
-    .move = move_density,
-    .close = close_amount,
-};
 
 static const char *const brightness_words[] = {
     [BRUME_BRIGHTNESS_PHYSICAL] = "physical",
@@ -369,7 +169,8 @@ static void add_density(struct parser *parser, struct media *media,
 {
     for (int i = 0; i < 3; i++)
         media->tint[i] *= density->color[i];
-    if (!density->has_grid)
+    media->patterned |= model_density_is_patterned(density);
+    if (!model_density_is_grid(density))
         return;
     if (media->densities == BRUME_MAX_DENSITIES)
         parser_error(parser, at, "a media takes %d densities with files",
@@ -411,6 +212,28 @@ const struct statement build_statement_media = {
 
 /* ---- interior ---------------------------------------------------------- */
 
+#define INTERIOR(word, kind, start, low, high)                                 \
+    PARAM_ROW(#word, kind, start, low, high, 0, 0, struct interior, word)
+
+const struct param build_interior_params[] = {
+    INTERIOR(ior, PARAM_FLOAT, 1, 0, INFINITY),
+    INTERIOR(caustics, PARAM_FLOAT, 0, 0, INFINITY),
+    INTERIOR(dispersion, PARAM_FLOAT, 1, 0, INFINITY),
+    INTERIOR(dispersion_samples, PARAM_INTEGER, 7, 2, 1000),
+    INTERIOR(fade_distance, PARAM_FLOAT, 0, 0, INFINITY),
+    INTERIOR(fade_power, PARAM_FLOAT, 0, 0, INFINITY),
+    INTERIOR(fade_color, PARAM_RGB, 0, -INFINITY, INFINITY),
+    PARAM_ROW("fade_colour", PARAM_RGB, 0, -INFINITY, INFINITY, 0, 0,
+              struct interior, fade_color),
+    PARAM_WITHOUT("refraction", "'ior' alone bends light"),
+    {0}};
+
+static void open_interior(struct parser *parser, struct frame *frame)
+{
+    (void)parser;
+    param_defaults(build_interior_params, frame->node);
+}
+
 static void apply_interior(struct parser *parser, struct frame *frame,
                            const struct value *value, struct location at)
 {
@@ -432,5 +255,7 @@ const struct statement build_statement_interior = {
     .makes = VALUE_INTERIOR,
     .takes = BUILD_TAKES(VALUE_INTERIOR) | BUILD_TAKES(VALUE_MEDIA),
     .size = sizeof(struct interior),
+    .params = build_interior_params,
+    .open = open_interior,
     .apply = apply_interior,
 };

@@ -45,8 +45,13 @@ void build_object_apply(struct parser *parser, struct frame *frame,
     switch (value->kind) {
     case VALUE_TEXTURE:
     case VALUE_PIGMENT:
+    case VALUE_NORMAL:
     case VALUE_FINISH:
-        build_wear(parser, &object->texture, value, at);
+        build_wear(parser, &object->texture, value);
+        break;
+    case VALUE_INTERIOR_TEXTURE:
+        object->inner = (struct placed_texture){value->node,
+                                                transform_identity(), false};
         break;
     case VALUE_INTERIOR:
         object->interior.what = value->node;
@@ -59,8 +64,10 @@ void build_object_apply(struct parser *parser, struct frame *frame,
         if (material->texture.what) {
             struct placed_texture over = material->texture;
             over.owned = false;
-            build_wear_placed(parser, &object->texture, &over, at);
+            build_wear_placed(parser, &object->texture, &over);
         }
+        if (material->inner.what)
+            object->inner = material->inner;
         break;
     default:
         build_misplaced(parser, frame, value, at);
@@ -86,7 +93,7 @@ struct object *build_object_start(struct frame *frame, enum object_kind kind,
     object->at = frame->at;
     object->shape = start;
     object->shape.kind = shape;
-    object->by = object->texture.by = object->interior.by =
+    object->by = object->texture.by = object->inner.by = object->interior.by =
         transform_identity();
     object->shadow = true;
     return object;

@@ -59,16 +59,21 @@ static int send_material(struct parser *parser,
 static int send_field(struct parser *parser, const struct density *density,
                       const transform *by, struct brume_error *err)
 {
-    transform placing = transform_then(&density->by, by);
+    transform placing = transform_identity();
     struct brume_field field;
     int id;
 
     memset(&field, 0, sizeof field);
-    field.kind = density->has_grid ? BRUME_FIELD_GRID : BRUME_FIELD_CONSTANT;
+    field.kind = BRUME_FIELD_CONSTANT;
     field.scale = density->color[0];
-    field.grid = density->has_grid ? density->grid : -1;
-    if (!density->has_grid)
-        placing = transform_identity();
+    field.grid = -1;
+    if (model_density_is_grid(density)) {
+        const struct pattern *pattern = density->on.pattern;
+        field.kind = BRUME_FIELD_GRID;
+        field.grid = pattern->grid;
+        placing = transform_then(&pattern->grid_by, &density->on.by);
+        placing = transform_then(&placing, by);
+    }
     memcpy(field.transform, placing.m, sizeof placing.m);
     id = sent(parser, SENT_FIELD, &field, sizeof field);
     if (id >= 0)
@@ -230,8 +235,10 @@ static bool place_shape(struct parser *parser, const struct object *object,
     shape.hollow = has->hollow;
     shape.inverse = object->inverse;
     shape.shadow = has->shadow;
-    shape.material = send_material(
-        parser, has->texture.what ? &has->texture : &bare, err);
+    const struct placed_texture *worn = has->texture.what ? &has->texture
+                                                          : &bare;
+    build_lacks_of(parser, object, worn->what, has->interior.what);
+    shape.material = send_material(parser, worn, err);
     if (shows_media(parser, object, has))
         shape.interior = send_interior(parser, has->interior.what->media,
                                        has->interior.what->count,

@@ -1,20 +1,25 @@
-/* build_texture.c - pigment, finish, texture, material and #default. */
+/* build_texture.c - pigment, normal, texture, material and #default. */
 #include <string.h>
 
 #include "parser/builder.h"
 
 /* ---- where a statement starts from ------------------------------------- */
 
+static bool is_texture(const struct frame *frame)
+{
+    return build_statement_of(frame)->takes & BUILD_TAKES(VALUE_TEXTURE) &&
+           !build_object_of(frame) && frame->kind != BUILD_MATERIAL;
+}
+
 /* What the statement around has by now, so that `pigment { scale 2 }` changes
  * what is there; the default texture where nothing is. */
-static const struct texture *texture_around(struct parser *parser,
-                                            transform *by)
+const struct texture *build_texture_around(struct parser *parser, transform *by)
 {
     const struct frame *around = build_around(parser);
     const struct object *object;
 
     *by = transform_identity();
-    if (around && around->kind == BUILD_TEXTURE)
+    if (around && is_texture(around) && around->node)
         return around->node;
     object = around ? build_object_of(around) : NULL;
     if (object && object->texture.what) {
@@ -24,6 +29,15 @@ static const struct texture *texture_around(struct parser *parser,
     return &parser->builder->default_texture;
 }
 
+static void move_patterned(struct parser *parser, struct frame *frame,
+                           const transform *by)
+{
+    struct patterned *on = frame->node;
+
+    (void)parser;
+    on->by = transform_then(&on->by, by);
+}
+
 /* ---- pigment ----------------------------------------------------------- */
 
 static void open_pigment(struct parser *parser, struct frame *frame)
@@ -31,138 +45,192 @@ static void open_pigment(struct parser *parser, struct frame *frame)
     struct pigment *pigment = frame->node;
     transform by;
 
-    *pigment = texture_around(parser, &by)->pigment;
-    pigment->by = transform_then(&pigment->by, &by);
+    *pigment = build_texture_around(parser, &by)->pigment;
+    pigment->on.by = transform_then(&pigment->on.by, &by);
 }
 
-/* POV-Ray's colours of a checker that names none: blue, then green. */
-static void open_checker(struct pigment *pigment)
+static void open_default_pigment(struct parser *parser, struct frame *frame)
 {
-    static const double color[2][5] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}};
-
-    pigment->kind = BRUME_PIGMENT_CHECKER;
-    memcpy(pigment->color, color, sizeof color);
-    pigment->by = transform_identity();
+    *(struct pigment *)frame->node = parser->builder->default_texture.pigment;
 }
 
 static const struct param pigment_params[] = {
-    PARAM_WORD("checker", PARAM_MARK, BRUME_PIGMENT_CHECKER, 0, struct pigment,
-               kind),
     PARAM_WITHOUT("quick_color", "Brume has no previews of that kind"),
     PARAM_WITHOUT("quick_colour", "Brume has no previews of that kind"),
     {0}};
 
-static void set_pigment(struct parser *parser, struct frame *frame,
-                        const struct param *row, struct location at)
-{
-    (void)parser;
-    (void)at;
-    if (!strcmp(row->word, "checker")) {
-        open_checker(frame->node);
-        frame->arguments = 0;
-        frame->given |= PIGMENT_PATTERN;
-    }
-}
-
-static const struct param pigment_colors[] = {
-    PARAM_ANY("color", PARAM_COLOR, 0, 0, struct pigment, color[0]),
-    PARAM_ANY("second color", PARAM_COLOR, 0, 0, struct pigment, color[1])};
+static const struct param pigment_color = PARAM_ANY("color", PARAM_COLOR, 0, 0,
+                                                    struct pigment, color);
 
 static void pigment_argument(struct parser *parser, struct frame *frame,
                              const struct value *number, struct location at)
 {
     struct pigment *pigment = frame->node;
-    int room = frame->given & PIGMENT_PATTERN ? 2 : 1;
 
-    if (frame->arguments >= room) {
-        parser_error(parser, at, "a pigment of this kind takes %d color%s",
-                     room, room == 1 ? "" : "s");
+    if (build_entry_position(frame, number))
         return;
+    if (build_pattern_lists(frame)) {
+        build_pattern_choice(parser, frame, number, at);
+    } else if (frame->given & (FRAME_CHOSEN | FRAME_PLAIN)) {
+        parser_mistake(parser, at, "a pigment of this kind takes %s",
+                       frame->given & FRAME_PLAIN ? "1 color" : "no color");
+    } else {
+        pigment->on = (struct patterned){.by = transform_identity()};
+        frame->given &= ~(unsigned)FRAME_PATTERN;
+        frame->given |= FRAME_PLAIN;
+        param_set(parser, &pigment_color, pigment, at, number, 1, at);
     }
-    if (room == 1) {
-        pigment->kind = BRUME_PIGMENT_SOLID;
-        pigment->by = transform_identity();
+}
+
+/* A part of the same kind: what it begins with, or an item of a list. */
+static bool begin_with(struct parser *parser, struct frame *frame,
+                       const struct value *value, size_t size,
+                       struct location at)
+{
+    if (build_pattern_lists(frame)) {
+        build_pattern_choice(parser, frame, value, at);
+        return true;
     }
-    param_set(parser, &pigment_colors[frame->arguments], pigment, at, number, 1,
-              at);
+    memcpy(frame->node, value->node, size);
+    frame->given &= ~(unsigned)(FRAME_PATTERN | FRAME_LIST | FRAME_PLAIN);
+    return true;
 }
 
 static void apply_pigment(struct parser *parser, struct frame *frame,
                           const struct value *value, struct location at)
 {
     if (value->kind == VALUE_PIGMENT)
-        *(struct pigment *)frame->node = *(const struct pigment *)value->node;
-    else
+        begin_with(parser, frame, value, sizeof(struct pigment), at);
+    else if (!build_pattern_apply(parser, frame, value, at))
         build_misplaced(parser, frame, value, at);
 }
 
-static void move_pigment(struct parser *parser, struct frame *frame,
-                         const transform *by)
+static void close_pigment(struct parser *parser, struct frame *frame,
+                          struct location at)
 {
-    struct pigment *pigment = frame->node;
-
-    (void)parser;
-    pigment->by = transform_then(&pigment->by, by);
+    build_pattern_close(parser, frame, at);
+    surface_mean_pigment(frame->node);
 }
+
+static void close_pigment_entry(struct parser *parser, struct frame *frame,
+                                struct location at)
+{
+    close_pigment(parser, frame, at);
+    build_entry_close(parser, frame, at);
+}
+
+static void close_pigment_pattern(struct parser *parser, struct frame *frame,
+                                  struct location at)
+{
+    struct pattern *pattern = build_pattern_begin(parser, build_around(parser),
+                                                  PATTERN_PIGMENT);
+
+    close_pigment(parser, frame, at);
+    if (pattern)
+        pattern->pigment = frame->node;
+}
+
+static const enum build_kind in_pigment_map[] = {BUILD_PIGMENT_MAP,
+                                                 BUILD_KINDS};
+
+#define PIGMENT_STATEMENT                                                      \
+    .takes = BUILD_TAKES_PATTERN | BUILD_TAKES(VALUE_PIGMENT) |                \
+             BUILD_TAKES(VALUE_COLOR_MAP) | BUILD_TAKES(VALUE_PIGMENT_MAP),    \
+    .size = sizeof(struct pigment), .params = pigment_params,                  \
+    .groups = build_pattern_groups, .argument = pigment_argument,              \
+    .apply = apply_pigment, .move = move_patterned
 
 const struct statement build_statement_pigment = {
-    .word = "pigment",
-    .makes = VALUE_PIGMENT,
-    .takes = BUILD_TAKES(VALUE_PIGMENT),
-    .size = sizeof(struct pigment),
-    .params = pigment_params,
-    .open = open_pigment,
-    .argument = pigment_argument,
-    .apply = apply_pigment,
-    .move = move_pigment,
-    .set = set_pigment,
+    PIGMENT_STATEMENT,    .word = "pigment",      .makes = VALUE_PIGMENT,
+    .open = open_pigment, .close = close_pigment,
 };
 
-/* ---- finish ------------------------------------------------------------ */
+const struct statement build_statement_pigment_entry = {
+    PIGMENT_STATEMENT,
+    .word = "[",
+    .within = in_pigment_map,
+    .open = open_default_pigment,
+    .close = close_pigment_entry,
+};
 
-#define FINISH(word, kind, start, low, open)                                   \
-    PARAM_ROW(#word, kind, start, low, INFINITY, open, 0, struct finish, word)
+const struct statement build_statement_pigment_pattern = {
+    PIGMENT_STATEMENT,
+    .word = "pigment_pattern",
+    .within = build_patterned,
+    .open = open_default_pigment,
+    .close = close_pigment_pattern,
+};
 
-const struct param build_finish_params[] = {
-    FINISH(ambient, PARAM_RGB, 0.1, -INFINITY, 0),
-    FINISH(emission, PARAM_RGB, 0, -INFINITY, 0),
-    FINISH(diffuse, PARAM_FLOAT, 0.6, 0, 0),
-    FINISH(brilliance, PARAM_FLOAT, 1, 0, 0),
-    FINISH(phong, PARAM_FLOAT, 0, 0, 0),
-    FINISH(phong_size, PARAM_FLOAT, 40, 0, 0),
-    FINISH(specular, PARAM_FLOAT, 0, 0, 0),
-    FINISH(roughness, PARAM_FLOAT, 0.05, 0, PARAM_ABOVE),
-    {.word = "metallic",
-     .kind = PARAM_FLOAT,
-     .high = 1,
-     .alone = 1,
-     .offset = offsetof(struct finish, metallic)},
-    {0}};
+/* ---- normal ------------------------------------------------------------ */
 
-static void open_finish(struct parser *parser, struct frame *frame)
+static void open_normal(struct parser *parser, struct frame *frame)
 {
+    struct normal *normal = frame->node;
     transform by;
 
-    *(struct finish *)frame->node = texture_around(parser, &by)->finish;
+    *normal = build_texture_around(parser, &by)->normal;
+    normal->on.by = transform_then(&normal->on.by, &by);
 }
 
-static void apply_finish(struct parser *parser, struct frame *frame,
+static void open_default_normal(struct parser *parser, struct frame *frame)
+{
+    *(struct normal *)frame->node = parser->builder->default_texture.normal;
+}
+
+static const struct param normal_params[] = {
+    PARAM_ANY("bump_size", PARAM_FLOAT, 0, 0, struct normal, amount),
+    PARAM_ROW("accuracy", PARAM_FLOAT, 0.02, 0, INFINITY, PARAM_ABOVE, 0,
+              struct normal, accuracy),
+    PARAM_WORD("no_bump_scale", PARAM_SWITCH, 1, 0, struct normal,
+               no_bump_scale),
+    {0}};
+
+static void normal_argument(struct parser *parser, struct frame *frame,
+                            const struct value *number, struct location at)
+{
+    if (!build_entry_position(frame, number))
+        param_set(parser, &normal_params[0], frame->node, at, number, 1, at);
+}
+
+static void apply_normal(struct parser *parser, struct frame *frame,
                          const struct value *value, struct location at)
 {
-    if (value->kind == VALUE_FINISH)
-        *(struct finish *)frame->node = *(const struct finish *)value->node;
-    else
+    if (value->kind == VALUE_NORMAL)
+        begin_with(parser, frame, value, sizeof(struct normal), at);
+    else if (!build_pattern_apply(parser, frame, value, at))
         build_misplaced(parser, frame, value, at);
 }
 
-const struct statement build_statement_finish = {
-    .word = "finish",
-    .makes = VALUE_FINISH,
-    .takes = BUILD_TAKES(VALUE_FINISH),
-    .size = sizeof(struct finish),
-    .params = build_finish_params,
-    .open = open_finish,
-    .apply = apply_finish,
+static void close_normal_entry(struct parser *parser, struct frame *frame,
+                               struct location at)
+{
+    build_pattern_close(parser, frame, at);
+    build_entry_close(parser, frame, at);
+}
+
+static const enum build_kind in_normal_map[] = {BUILD_NORMAL_MAP, BUILD_KINDS};
+
+#define NORMAL_STATEMENT                                                       \
+    .takes = BUILD_TAKES_PATTERN | BUILD_TAKES(VALUE_NORMAL) |                 \
+             BUILD_TAKES(VALUE_NORMAL_MAP) | BUILD_TAKES(VALUE_SLOPE_MAP),     \
+    .size = sizeof(struct normal), .params = normal_params,                    \
+    .groups = build_pattern_groups, .argument = normal_argument,               \
+    .apply = apply_normal, .move = move_patterned
+
+const struct statement build_statement_normal = {
+    NORMAL_STATEMENT,
+    .word = "normal",
+    .makes = VALUE_NORMAL,
+    .open = open_normal,
+    .close = build_pattern_close,
+};
+
+const struct statement build_statement_normal_entry = {
+    NORMAL_STATEMENT,
+    .word = "[",
+    .within = in_normal_map,
+    .open = open_default_normal,
+    .close = close_normal_entry,
 };
 
 /* ---- texture ----------------------------------------------------------- */
@@ -170,11 +238,11 @@ const struct statement build_statement_finish = {
 static bool set_part(struct texture *texture, const struct value *value)
 {
     switch (value->kind) {
-    case VALUE_TEXTURE:
-        *texture = *(const struct texture *)value->node;
-        return true;
     case VALUE_PIGMENT:
         texture->pigment = *(const struct pigment *)value->node;
+        return true;
+    case VALUE_NORMAL:
+        texture->normal = *(const struct normal *)value->node;
         return true;
     case VALUE_FINISH:
         texture->finish = *(const struct finish *)value->node;
@@ -189,31 +257,90 @@ static void open_texture(struct parser *parser, struct frame *frame)
     *(struct texture *)frame->node = parser->builder->default_texture;
 }
 
+static void texture_argument(struct parser *parser, struct frame *frame,
+                             const struct value *number, struct location at)
+{
+    if (!build_entry_position(frame, number))
+        build_misplaced(parser, frame, number, at);
+}
+
 static void apply_texture(struct parser *parser, struct frame *frame,
                           const struct value *value, struct location at)
 {
-    if (!set_part(frame->node, value))
+    const struct texture *texture = frame->node;
+
+    if (value->kind == VALUE_TEXTURE) {
+        begin_with(parser, frame, value, sizeof *texture, at);
+    } else if (set_part(frame->node, value)) {
+        if (texture->on.map)
+            parser_mistake(parser, at,
+                           "a texture with a pattern has no %s of "
+                           "its own",
+                           value_name(value));
+    } else if (!build_pattern_apply(parser, frame, value, at)) {
         build_misplaced(parser, frame, value, at);
+    }
 }
 
 static void move_texture(struct parser *parser, struct frame *frame,
                          const transform *by)
 {
-    struct texture *texture = frame->node;
-
     (void)parser;
-    texture->pigment.by = transform_then(&texture->pigment.by, by);
+    surface_texture_transform(frame->node, by);
 }
 
+static void close_texture(struct parser *parser, struct frame *frame,
+                          struct location at)
+{
+    struct texture *texture = frame->node;
+
+    build_pattern_close(parser, frame, at);
+    if (frame->given & FRAME_CHOSEN && !texture->on.map)
+        parser_mistake(parser, at,
+                       "a texture with a pattern needs textures "
+                       "to choose from");
+    surface_mean_texture(texture);
+}
+
+static void close_texture_entry(struct parser *parser, struct frame *frame,
+                                struct location at)
+{
+    close_texture(parser, frame, at);
+    build_entry_close(parser, frame, at);
+}
+
+static const enum build_kind in_texture_map[] = {BUILD_TEXTURE_MAP,
+                                                 BUILD_KINDS};
+
+#define TEXTURE_PARTS                                                          \
+    (BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |                 \
+     BUILD_TAKES(VALUE_NORMAL) | BUILD_TAKES(VALUE_FINISH))
+#define TEXTURE_STATEMENT                                                      \
+    .takes = TEXTURE_PARTS | BUILD_TAKES_PATTERN |                             \
+             BUILD_TAKES(VALUE_TEXTURE_MAP),                                   \
+    .size = sizeof(struct texture), .groups = build_pattern_groups,            \
+    .open = open_texture, .argument = texture_argument,                        \
+    .apply = apply_texture, .move = move_texture
+
 const struct statement build_statement_texture = {
+    TEXTURE_STATEMENT,
     .word = "texture",
     .makes = VALUE_TEXTURE,
-    .takes = BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |
-             BUILD_TAKES(VALUE_FINISH),
-    .size = sizeof(struct texture),
-    .open = open_texture,
-    .apply = apply_texture,
-    .move = move_texture,
+    .close = close_texture,
+};
+
+const struct statement build_statement_interior_texture = {
+    TEXTURE_STATEMENT,
+    .word = "interior_texture",
+    .makes = VALUE_INTERIOR_TEXTURE,
+    .close = close_texture,
+};
+
+const struct statement build_statement_texture_entry = {
+    TEXTURE_STATEMENT,
+    .word = "[",
+    .within = in_texture_map,
+    .close = close_texture_entry,
 };
 
 static void open_default(struct parser *parser, struct frame *frame)
@@ -221,29 +348,130 @@ static void open_default(struct parser *parser, struct frame *frame)
     frame->node = &parser->builder->default_texture;
 }
 
+static void apply_default(struct parser *parser, struct frame *frame,
+                          const struct value *value, struct location at)
+{
+    if (value->kind == VALUE_TEXTURE)
+        *(struct texture *)frame->node = *(const struct texture *)value->node;
+    else if (!set_part(frame->node, value))
+        build_misplaced(parser, frame, value, at);
+}
+
 const struct statement build_statement_default = {
     .word = "#default",
-    .takes = BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |
-             BUILD_TAKES(VALUE_FINISH),
+    .takes = TEXTURE_PARTS,
     .open = open_default,
-    .apply = apply_texture,
+    .apply = apply_default,
 };
+
+/* ---- tiles: an older word for a checker of textures --------------------- */
+
+static const struct param tiles_params[] = {PARAM_OWN("tile2", 0, 0, 1), {0}};
+
+static void open_tiles(struct parser *parser, struct frame *frame)
+{
+    (void)frame;
+    build_pattern_begin(parser, build_around(parser), PATTERN_TILES);
+}
+
+static void tiles_values(struct parser *parser, struct frame *frame,
+                         const struct param *row, const struct value *value,
+                         int count, struct location at)
+{
+    const struct map *map = build_patterned_of(build_around(parser))->map;
+
+    (void)frame;
+    (void)value;
+    (void)count;
+    if (!map || map->count != 1)
+        parser_mistake(parser, at, "'%s' stands before the second texture",
+                       row->word);
+}
+
+static void apply_tiles(struct parser *parser, struct frame *frame,
+                        const struct value *value, struct location at)
+{
+    (void)frame;
+    build_pattern_choice(parser, build_around(parser), value, at);
+}
+
+static const enum build_kind in_texture[] = {
+    BUILD_TEXTURE, BUILD_INTERIOR_TEXTURE, BUILD_TEXTURE_ENTRY, BUILD_KINDS};
+
+const struct statement build_statement_tiles = {
+    .word = "tiles",
+    .within = in_texture,
+    .takes = BUILD_TAKES(VALUE_TEXTURE),
+    .params = tiles_params,
+    .open = open_tiles,
+    .values = tiles_values,
+    .apply = apply_tiles,
+};
+
+/* ---- layers ------------------------------------------------------------ */
+
+/* A texture over another: its lowest layer gets what is below. */
+static struct texture *lay(struct parser *parser,
+                           const struct placed_texture *above,
+                           const struct placed_texture *below)
+{
+    struct texture *top = build_node(parser, VALUE_TEXTURE, sizeof *top);
+    struct texture *layer = top;
+
+    if (!top)
+        return NULL;
+    *top = *above->what;
+    surface_texture_transform(top, &above->by);
+    while (layer->below) {
+        struct texture *copy = parser_alloc(parser, sizeof *copy);
+        if (!copy)
+            return NULL;
+        *copy = *layer->below;
+        surface_texture_transform(copy, &layer->below_by);
+        layer->below = copy;
+        layer->below_by = transform_identity();
+        layer = copy;
+    }
+    layer->below = below->what;
+    layer->below_by = below->by;
+    return top;
+}
+
+struct value build_layer(struct parser *parser, const struct value *below,
+                         const struct value *above, struct location at)
+{
+    struct placed_texture upper = {above->node, transform_identity(), false};
+    struct placed_texture lower = {below->node, transform_identity(), false};
+
+    (void)at;
+    if (parser->failed || below->kind != VALUE_TEXTURE ||
+        above->kind != VALUE_TEXTURE)
+        return *below;
+    struct texture *top = lay(parser, &upper, &lower);
+    return top ? value_node(VALUE_TEXTURE, top) : *below;
+}
 
 /* ---- what an object wears ---------------------------------------------- */
 
 bool build_wear_placed(struct parser *parser, struct placed_texture *worn,
-                       const struct placed_texture *over, struct location at)
+                       const struct placed_texture *over)
 {
-    if (worn->what && !model_is_opaque(over->what))
-        return parser_error(parser, at,
-                            "layered textures are not supported yet");
-    if (worn->owned)
-        build_give_up(parser, VALUE_TEXTURE, worn->what);
-    *worn = *over;
+    struct texture *top;
+
+    if (!worn->what || model_is_opaque(over->what)) {
+        if (worn->owned)
+            build_give_up(parser, VALUE_TEXTURE, worn->what);
+        *worn = *over;
+        return true;
+    }
+    top = lay(parser, over, worn);
+    if (!top)
+        return false;
+    *worn = (struct placed_texture){top, transform_identity(), true};
     return true;
 }
 
-/* Makes what is worn a texture of its own, with its maps in the pigment. */
+/* Makes what is worn a texture of its own, with its maps in its parts. */
 static bool own_texture(struct parser *parser, struct placed_texture *worn)
 {
     struct texture *texture = worn->what;
@@ -255,18 +483,18 @@ static bool own_texture(struct parser *parser, struct placed_texture *worn)
         *texture = worn->what ? *worn->what : parser->builder->default_texture;
     }
     if (worn->what)
-        texture->pigment.by = transform_then(&texture->pigment.by, &worn->by);
+        surface_texture_transform(texture, &worn->by);
     *worn = (struct placed_texture){texture, transform_identity(), true};
     return true;
 }
 
 bool build_wear(struct parser *parser, struct placed_texture *worn,
-                const struct value *value, struct location at)
+                const struct value *value)
 {
     if (value->kind == VALUE_TEXTURE) {
         struct placed_texture over = {value->node, transform_identity(),
                                       value->node == parser->builder->fresh};
-        return build_wear_placed(parser, worn, &over, at);
+        return build_wear_placed(parser, worn, &over);
     }
     return own_texture(parser, worn) && set_part(worn->what, value);
 }
@@ -278,7 +506,8 @@ static void open_material(struct parser *parser, struct frame *frame)
     struct material *material = frame->node;
 
     (void)parser;
-    material->texture.by = material->interior.by = transform_identity();
+    material->texture.by = material->inner.by = material->interior.by =
+        transform_identity();
 }
 
 static void apply_material(struct parser *parser, struct frame *frame,
@@ -291,7 +520,11 @@ static void apply_material(struct parser *parser, struct frame *frame,
         *material = *(const struct material *)value->node;
         break;
     case VALUE_TEXTURE:
-        build_wear(parser, &material->texture, value, at);
+        build_wear(parser, &material->texture, value);
+        break;
+    case VALUE_INTERIOR_TEXTURE:
+        material->inner = (struct placed_texture){value->node,
+                                                  transform_identity(), false};
         break;
     case VALUE_INTERIOR:
         material->interior.what = value->node;
@@ -310,6 +543,7 @@ static void move_material(struct parser *parser, struct frame *frame,
 
     (void)parser;
     material->texture.by = transform_then(&material->texture.by, by);
+    material->inner.by = transform_then(&material->inner.by, by);
     material->interior.by = transform_then(&material->interior.by, by);
 }
 
@@ -317,17 +551,9 @@ const struct statement build_statement_material = {
     .word = "material",
     .makes = VALUE_MATERIAL,
     .takes = BUILD_TAKES(VALUE_MATERIAL) | BUILD_TAKES(VALUE_TEXTURE) |
-             BUILD_TAKES(VALUE_INTERIOR),
+             BUILD_TAKES(VALUE_INTERIOR_TEXTURE) | BUILD_TAKES(VALUE_INTERIOR),
     .size = sizeof(struct material),
     .open = open_material,
     .apply = apply_material,
     .move = move_material,
 };
-
-struct value build_layer(struct parser *parser, const struct value *below,
-                         const struct value *above, struct location at)
-{
-    (void)above;
-    parser_mistake(parser, at, "layered textures are not supported yet");
-    return *below;
-}

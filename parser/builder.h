@@ -18,7 +18,20 @@
     X(VERTEX_VECTORS, vertex_vectors) X(NORMAL_VECTORS, normal_vectors)       \
     X(UV_VECTORS, uv_vectors) X(FACE_INDICES, face_indices)                   \
     X(NORMAL_INDICES, normal_indices) X(UV_INDICES, uv_indices)               \
-    X(PIGMENT, pigment) X(FINISH, finish) X(TEXTURE, texture)                 \
+    X(PIGMENT, pigment) X(NORMAL, normal) X(FINISH, finish)                   \
+    X(TEXTURE, texture) X(INTERIOR_TEXTURE, interior_texture)                 \
+    X(REFLECTION, reflection) X(IRID, irid) X(SUBSURFACE, subsurface)         \
+    X(COLOR_MAP, color_map) X(COLOUR_MAP, colour_map)                         \
+    X(PIGMENT_MAP, pigment_map) X(NORMAL_MAP, normal_map)                     \
+    X(SLOPE_MAP, slope_map) X(TEXTURE_MAP, texture_map)                       \
+    X(DENSITY_MAP, density_map) X(COLOR_ENTRY, color_entry)                   \
+    X(PIGMENT_ENTRY, pigment_entry) X(NORMAL_ENTRY, normal_entry)             \
+    X(SLOPE_ENTRY, slope_entry) X(TEXTURE_ENTRY, texture_entry)               \
+    X(DENSITY_ENTRY, density_entry)                                           \
+    X(PATTERN, pattern) X(WARP, warp) X(SLOPE, slope)                         \
+    X(PIGMENT_PATTERN, pigment_pattern) X(OBJECT_PATTERN, object_pattern)     \
+    X(IMAGE_MAP, image_map) X(IMAGE_PATTERN, image_pattern)                   \
+    X(BUMP_MAP, bump_map) X(MATERIAL_MAP, material_map) X(TILES, tiles)       \
     X(MATERIAL, material) X(INTERIOR, interior) X(MEDIA, media)               \
     X(SCATTERING, scattering) X(DENSITY, density) X(FIRE, fire)               \
     X(TEMPERATURE, temperature) X(AMOUNT, amount)                             \
@@ -43,21 +56,31 @@ struct frame {
     const struct param *row;    /* the word whose numbers are being read   */
     struct location row_at;
     int values;                 /* of them so far, in builder.value        */
+    double position;            /* of an entry in its map                  */
+    const struct param *open;   /* a word that another one belongs to      */
 };
 
-/* Rows that several statements share, and where what they set lies in the
- * statement's node. */
+/* Rows that several statements share, and where what they set lies: in the
+ * statement's node, or in what `node` gives. Members as in struct statement.
+ */
 struct param_group {
     const struct param *rows;   /* NULL ends a list of groups              */
     size_t offset;
+    void *(*node)(struct parser *parser, struct frame *frame);
+    void (*set)(struct parser *parser, struct frame *frame,
+                const struct param *row, struct location at);
+    void (*values)(struct parser *parser, struct frame *frame,
+                   const struct param *row, const struct value *value,
+                   int count, struct location at);
 };
 
 #define BUILD_TAKES(kind) (UINT64_C(1) << (kind))
 /* What every object wears and holds. */
 #define BUILD_TAKES_WORN                                                      \
     (BUILD_TAKES(VALUE_TEXTURE) | BUILD_TAKES(VALUE_PIGMENT) |                \
-     BUILD_TAKES(VALUE_FINISH) | BUILD_TAKES(VALUE_MATERIAL) |                \
-     BUILD_TAKES(VALUE_INTERIOR))
+     BUILD_TAKES(VALUE_NORMAL) | BUILD_TAKES(VALUE_FINISH) |                  \
+     BUILD_TAKES(VALUE_MATERIAL) | BUILD_TAKES(VALUE_INTERIOR) |              \
+     BUILD_TAKES(VALUE_INTERIOR_TEXTURE))
 
 /* How statements of a kind behave; NULL where they do not do that. */
 struct statement {
@@ -97,7 +120,12 @@ BUILD_STATEMENTS(X)
 #undef X
 
 /* Bits of frame.given with a meaning beyond their file. */
-enum { PIGMENT_PATTERN = 1, OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
+enum { OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
+/* Of statements with patterns: their pattern is their own copy; it was chosen
+ * here; they have a list of their own; they have a colour of their own; as an
+ * entry of a map they have a position. */
+enum { FRAME_PATTERN = 1 << 16, FRAME_CHOSEN = 1 << 17, FRAME_LIST = 1 << 18,
+       FRAME_PLAIN = 1 << 19, FRAME_POSITION = 1 << 20 };
 
 /* The modifiers of every object. */
 #define BUILD_OBJECT_ROWS                                                     \
@@ -111,7 +139,8 @@ enum { PIGMENT_PATTERN = 1, OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
 extern const struct param build_camera_params[], build_light_params[],
     build_object_params[], build_mesh_params[], build_finish_params[],
     build_fire_params[], build_scattering_params[], build_media_params[],
-    build_globals_params[], build_transport_params[];
+    build_globals_params[], build_transport_params[],
+    build_reflection_params[], build_interior_params[];
 
 struct transport {
     int media, surfaces;        /* 1: multiple; indirect                   */
@@ -132,7 +161,7 @@ struct index_list {
     size_t count, room;
 };
 
-enum { BUILD_NOTES = 16 };
+enum { BUILD_NOTES = 16, BUILD_LACKS = 24 };
 
 /* A node that nothing refers to any more. */
 struct spare {
@@ -163,10 +192,12 @@ struct builder {
     struct intern intern[4];        /* what core has: see build_place.c    */
     struct placing *placing;        /* the unions being placed             */
     size_t placing_room;
-    struct data_file file;          /* of the open density                 */
     struct loader loader;
     const char *note[BUILD_NOTES];  /* given already                       */
     int notes;
+    const char *lack[BUILD_LACKS];  /* see build_lacks                     */
+    int lacked;
+    struct location lacks_at;       /* the first thing that lacks one      */
 };
 
 struct frame *build_top(struct parser *parser);
@@ -196,12 +227,60 @@ void build_object_apply(struct parser *parser, struct frame *frame,
 void build_object_move(struct parser *parser, struct frame *frame,
                        const transform *by);
 
-/* Puts a texture over what an object wears; a pigment or a finish changes
+/* Puts a texture over what an object wears; pigment, normal and finish change
  * that, or the default texture. False: reported. */
 bool build_wear(struct parser *parser, struct placed_texture *worn,
-                const struct value *value, struct location at);
+                const struct value *value);
 bool build_wear_placed(struct parser *parser, struct placed_texture *worn,
-                       const struct placed_texture *over, struct location at);
+                       const struct placed_texture *over);
+/* The texture that the statement around has by now, and what was applied to
+ * it since. */
+const struct texture *build_texture_around(struct parser *parser,
+                                           transform *by);
+
+/* What statements with patterns have in common: their rows, and what else they
+ * take. `apply` is false for a value that is none of a pattern's. */
+extern const struct param_group build_pattern_groups[];
+#define BUILD_TAKES_PATTERN BUILD_TAKES(VALUE_FUNCTION)
+extern const enum build_kind build_patterned[], build_entries[];
+struct patterned *build_patterned_of(const struct frame *frame);
+/* The pattern of the open statement, to be changed. NULL: no memory. */
+struct pattern *build_pattern_of(struct parser *parser, struct frame *frame);
+struct pattern *build_pattern_begin(struct parser *parser, struct frame *frame,
+                                    enum pattern_kind kind);
+bool build_pattern_apply(struct parser *parser, struct frame *frame,
+                         const struct value *value, struct location at);
+/* A colour (number) or a node for the list of a block pattern. */
+void build_pattern_choice(struct parser *parser, struct frame *frame,
+                          const struct value *value, struct location at);
+/* Whether the open statement is at a list. */
+bool build_pattern_lists(const struct frame *frame);
+void build_pattern_close(struct parser *parser, struct frame *frame,
+                         struct location at);
+
+/* Whether a data file is there; reported if not. */
+bool build_has_file(struct parser *parser, struct string name,
+                    struct location at);
+
+/* Whether a number is the position of the open entry; then it is taken. */
+bool build_entry_position(struct frame *frame, const struct value *number);
+/* Closes an entry: its node goes to the map around. */
+void build_entry_close(struct parser *parser, struct frame *frame,
+                       struct location at);
+bool build_map_add(struct parser *parser, struct map *map, double at,
+                   const double *color, int terms, const void *node);
+/* A color_map's number. */
+void build_color_argument(struct parser *parser, struct frame *frame,
+                          const struct value *number, struct location at);
+
+/* Notes what the picture does not show ("normals"), of something that is
+ * placed: of a placed object with its texture, and interior or NULL. */
+void build_lacks(struct parser *parser, const char *what, struct location at);
+void build_lacks_of(struct parser *parser, const struct object *object,
+                    const struct texture *texture,
+                    const struct interior *interior);
+/* One warning of all of it. */
+void build_report_lacks(struct parser *parser);
 
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,

@@ -303,6 +303,7 @@ static int word_kind(const struct expander *expander, const struct token *token)
 {
     switch (token->kind) {
     case TOK_NUMBER_FUNCTION:
+    case TOK_RGB:
     case TOK_FILTER:
     case TOK_TRANSMIT:
     case TOK_RED:

@@ -414,6 +414,7 @@ void formula_statement(struct parser *parser, struct location at)
     struct value value = build_close(parser, at);
     struct brume_error err = {0};
 
+    build_resume(parser);
     if (!parser->failed)
         made(parser, build_function(parser, &value, at, &err), at, &err);
 }

@@ -184,7 +184,6 @@ expr:
     NUMBER
   | FLOAT_ID
   | VECTOR_ID
-  | COLOR_ID
   | '<' components comma '>'
         { $$ = eval_components(parser, $2, @1); }
   | '(' full ')'
@@ -326,6 +325,8 @@ color_words:
 
 color_head:
     color_item
+  | COLOR_ID
+        { $$ = eval_color_all(parser, &$1, @1); }
   | RGB expr %prec LOW
         { $$ = eval_color_rgb(parser, $1, &$2, @2); }
   | COLOR expr %prec LOW
@@ -444,7 +445,11 @@ body:
 /* Inside of `function { pigment { ... } }` x is a vector again. */
 inner_open:
     '{'
-        { formula_suspend(parser); build_open(parser, $<name>0, @0); }
+        {
+            formula_suspend(parser);
+            build_suspend(parser);
+            build_open(parser, $<name>0, @0);
+        }
   ;
 
 /* ---- statements: opened, filled and closed in the builder -------------- */

@@ -214,13 +214,12 @@ static const transform swap_y_and_z = {
     {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}}};
 
 static void place_grid(struct parser *parser, const struct data_file *file,
-                       const struct loaded_grid *grid, struct density *out)
+                       const struct loaded_grid *grid, struct pattern *out)
 {
-    out->has_grid = true;
     out->grid = grid->id;
-    out->by = file->fit ? grid->fit : transform_identity();
+    out->grid_by = file->fit ? grid->fit : transform_identity();
     if (file->up_z)
-        out->by = transform_then(&out->by, &swap_y_and_z);
+        out->grid_by = transform_then(&out->grid_by, &swap_y_and_z);
     if (file->fit && grid->empty)
         parser_warn(parser, file->at,
                     "grid '%s' of '%s' is empty: there is "
@@ -229,7 +228,7 @@ static void place_grid(struct parser *parser, const struct data_file *file,
 }
 
 bool load_density(struct parser *parser, const struct data_file *file,
-                  enum vdb_role role, struct density *out)
+                  enum vdb_role role, struct pattern *out)
 {
     enum grid_filter filter;
     char name[64];

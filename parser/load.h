@@ -29,9 +29,9 @@ struct loader {
 };
 
 /* Fills the grid of `out` and the map from the grid's own world to that of
- * the density. The role picks the grid where the scene names none. */
+ * the pattern. The role picks the grid where the scene names none. */
 bool load_density(struct parser *parser, const struct data_file *file,
-                  enum vdb_role role, struct density *out);
+                  enum vdb_role role, struct pattern *out);
 struct model_mesh *load_mesh(struct parser *parser,
                              const struct data_file *file);
 

@@ -14,72 +14,6 @@ transform model_transform_result(const struct transform_block *block)
     return by;
 }
 
-/* ---- surfaces ---------------------------------------------------------- */
-
-const struct texture model_default_texture = {
-    {BRUME_PIGMENT_SOLID,
-     {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}},
-     {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}},
-    {{0.1, 0.1, 0.1}, {0, 0, 0}, 0.6, 1, 0, 40, 0, 0.05, 0}};
-
-static int pigment_colors(const struct pigment *pigment)
-{
-    return pigment->kind == BRUME_PIGMENT_CHECKER ? 2 : 1;
-}
-
-/* A colour's own reflection counts 1 - filter - transmit, at least 0. */
-static bool color_is_clear(const double color[5])
-{
-    if (color[3] + color[4] < 1)
-        return false;
-    for (int i = 0; i < 3; i++)
-        if (color[3] * color[i] + color[4] != 1)
-            return false;
-    return true;
-}
-
-bool model_is_invisible(const struct texture *texture)
-{
-    for (int i = 0; i < pigment_colors(&texture->pigment); i++)
-        if (!color_is_clear(texture->pigment.color[i]))
-            return false;
-    return texture->finish.phong == 0 && texture->finish.specular == 0;
-}
-
-bool model_is_opaque(const struct texture *texture)
-{
-    for (int i = 0; i < pigment_colors(&texture->pigment); i++) {
-        const double *color = texture->pigment.color[i];
-        if (color[3] != 0 || color[4] != 0)
-            return false;
-    }
-    return true;
-}
-
-void model_material(const struct texture *texture, const transform *by,
-                    struct brume_material *out)
-{
-    const struct pigment *pigment = &texture->pigment;
-    const struct finish *finish = &texture->finish;
-    transform placing = transform_then(&pigment->by, by);
-
-    memset(out, 0, sizeof *out);
-    out->pigment = pigment->kind;
-    memcpy(out->color, pigment->color, sizeof out->color);
-    if (pigment->kind == BRUME_PIGMENT_SOLID)
-        placing = transform_identity();
-    memcpy(out->pigment_transform, placing.m, sizeof placing.m);
-    memcpy(out->ambient, finish->ambient, sizeof out->ambient);
-    memcpy(out->emission, finish->emission, sizeof out->emission);
-    out->diffuse = finish->diffuse;
-    out->brilliance = finish->brilliance;
-    out->phong = finish->phong;
-    out->phong_size = finish->phong_size;
-    out->specular = finish->specular;
-    out->roughness = finish->roughness;
-    out->metallic = finish->metallic;
-}
-
 /* ---- media ------------------------------------------------------------- */
 
 /* How other programs read the same grids.
@@ -111,9 +45,35 @@ void model_fire_preset(struct fire *fire, enum fire_preset preset)
     fire->additive = row[preset].additive;
 }
 
+bool model_density_is_grid(const struct density *density)
+{
+    const struct pattern *pattern = density->on.pattern;
+
+    return pattern && pattern->kind == PATTERN_DENSITY_FILE &&
+           !density->on.map && surface_is_plain(pattern);
+}
+
+bool model_density_is_patterned(const struct density *density)
+{
+    const struct pattern *pattern = density->on.pattern;
+
+    return pattern && pattern->kind != PATTERN_NONE &&
+           !model_density_is_grid(density);
+}
+
+void model_mean_density(struct density *density)
+{
+    double color[5];
+
+    if (!model_density_is_patterned(density))
+        return;
+    surface_mean(&density->on, color);
+    memcpy(density->color, color, sizeof density->color);
+}
+
 static void density_transform(struct density *density, const transform *by)
 {
-    density->by = transform_then(&density->by, by);
+    density->on.by = transform_then(&density->on.by, by);
 }
 
 void model_fire_transform(struct fire *fire, const transform *by)
@@ -135,6 +95,7 @@ void model_object_transform(struct object *object, const transform *by)
 {
     object->by = transform_then(&object->by, by);
     object->texture.by = transform_then(&object->texture.by, by);
+    object->inner.by = transform_then(&object->inner.by, by);
     object->interior.by = transform_then(&object->interior.by, by);
 }
 

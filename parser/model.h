@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include "core/brume.h"
+#include "parser/surface.h"
 #include "parser/token.h"
 #include "parser/transform.h"
 
@@ -21,48 +22,19 @@ struct transform_block {
 };
 transform model_transform_result(const struct transform_block *block);
 
-/* ---- surfaces ---------------------------------------------------------- */
-
-struct pigment {
-    enum brume_pigment_kind kind;
-    double color[2][5];         /* red, green, blue, filter, transmit      */
-    transform by;               /* pattern space to the object's           */
-};
-
-struct finish {
-    double ambient[3], emission[3];
-    double diffuse, brilliance;
-    double phong, phong_size;
-    double specular, roughness;
-    double metallic;
-};
-
-struct texture {
-    struct pigment pigment;
-    struct finish finish;
-};
-
-/* POV-Ray's default texture: black, ambient 0.1, diffuse 0.6. */
-extern const struct texture model_default_texture;
-
-/* Nothing of a surface shows: it lets all light through and has no highlight.
- * Such an object is but a container for its interior. */
-bool model_is_invisible(const struct texture *texture);
-/* No light comes through, so that layers below it do not show. */
-bool model_is_opaque(const struct texture *texture);
-/* `by` is applied to the texture after its own maps. */
-void model_material(const struct texture *texture, const transform *by,
-                    struct brume_material *out);
-
 /* ---- media ------------------------------------------------------------- */
 
-/* One factor of a medium's density: a colour, or a grid times that colour. */
+/* One factor of a medium's density: a colour, or a pattern; times a colour. */
 struct density {
-    bool has_grid;
-    int grid;                   /* id in core                              */
-    double color[3];
-    transform by;               /* the grid's own world to the object's    */
+    struct patterned on;
+    double color[3];            /* of a pattern that is not drawn: the mean
+                                   of what it has                          */
 };
+/* Of a pattern that core has as a grid: a file without a map of its own. */
+bool model_density_is_grid(const struct density *density);
+/* Of any other pattern. */
+bool model_density_is_patterned(const struct density *density);
+void model_mean_density(struct density *density);
 
 struct fire {
     bool on;
@@ -87,6 +59,7 @@ struct media {
     double tint[3];             /* product of all the densities' colours   */
     struct density density[BRUME_MAX_DENSITIES];
     int densities;
+    bool patterned;             /* some density is a pattern, not a grid   */
     struct fire fire;
 };
 /* Applies `by` to the densities and the fire's fields that are there now. */
@@ -95,6 +68,9 @@ void model_media_transform(struct media *media, const transform *by);
 struct interior {
     const struct media *media[BRUME_MAX_INTERIOR_MEDIA];
     int count;
+    double ior, caustics, dispersion;
+    int dispersion_samples;
+    double fade_distance, fade_power, fade_color[3];
     bool warned;                /* that it sits in a solid object          */
 };
 
@@ -112,7 +88,7 @@ struct placed_interior {
 };
 
 struct material {
-    struct placed_texture texture;
+    struct placed_texture texture, inner;   /* inner: interior_texture     */
     struct placed_interior interior;
 };
 
@@ -135,7 +111,7 @@ struct object {
     struct brume_light light;
     struct child *first, *last;     /* of a union                          */
     transform by;                   /* all maps of this statement          */
-    struct placed_texture texture;
+    struct placed_texture texture, inner;   /* inner: interior_texture     */
     struct placed_interior interior;
     bool hollow, says_hollow;       /* else as the union it is in          */
     bool inverse, shadow;

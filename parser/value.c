@@ -37,7 +37,9 @@ static const char *const kind_name[VALUE_KINDS] = {
     [VALUE_DENSITY_MAP] = "density_map",
     [VALUE_FOG] = "fog",
     [VALUE_RAINBOW] = "rainbow",
-    [VALUE_SKY_SPHERE] = "sky_sphere"};
+    [VALUE_SKY_SPHERE] = "sky_sphere",
+    [VALUE_PATTERN] = "pattern",
+    [VALUE_INTERIOR_TEXTURE] = "interior_texture"};
 
 const char *value_name(const struct value *value)
 {

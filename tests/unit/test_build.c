@@ -365,8 +365,102 @@ static void textures(void **state)
     NUMBERS(&s->material[1].phong, 1);
     NUMBERS(s->material[2].color[0], 0, 1, 0, 0, 0);
     NUMBERS(s->material[2].ambient, 0.1, 0.1, 0.1);
-    expect_error("sphere { 0, 1 texture { } texture { pigment { rgbt .5 } } }",
-                 BRUME_ERR_SCENE, 1, 27, "layered");
+}
+
+/* Of what is not drawn yet the mean is. */
+static void patterns_have_means(void **state)
+{
+    (void)state;
+    const struct brume_material *m = material_of(
+        "pigment { bozo color_map { [0 rgb 0] [1 rgb <1, .5, 0>] } }");
+    NUMBERS(m->color[0], 0.5, 0.25, 0, 0, 0);
+    m = material_of("pigment { granite colour_map { [0.0 0.5 rgb x rgb x]"
+                    "  [0.5 1 color rgb y color rgb y] } }");
+    NUMBERS(m->color[0], 0.5, 0.5, 0, 0, 0);
+    m = material_of("pigment { wood pigment_map {"
+                    "  [0.5 hexagon rgb 1, rgb 0, rgb .5] [0.5 rgb z] } }");
+    NUMBERS(m->color[0], 0.25, 0.25, 0.75, 0, 0);
+    m = material_of("pigment { brick pigment { rgb 1 } pigment { rgbt 1 } }");
+    NUMBERS(m->color[0], 1, 1, 1, 0, 0.5);
+    m = material_of("pigment { average pigment_map { [3 rgb x] [1 rgb y] } }");
+    NUMBERS(m->color[0], 0.75, 0.25, 0, 0, 0);
+    m = material_of("texture { gradient x texture_map {"
+                    "  [0 pigment { rgb x } finish { ambient 1 }]"
+                    "  [1 pigment { rgb z } finish { ambient 0 }] } }");
+    NUMBERS(m->color[0], 0.5, 0, 0.5, 0, 0);
+    NUMBERS(m->ambient, 1, 1, 1);
+    m = material_of("texture { tiles { texture { pigment { rgb 1 } } tile2 "
+                    "texture { pigment { rgb 0 } } } }");
+    NUMBERS(m->color[0], 0.5, 0.5, 0.5, 0, 0);
+}
+
+static void layers_cover(void **state)
+{
+    (void)state;
+    const struct brume_material *m = material_of(
+        "texture { pigment { rgb <1, 0, 0> } }\n"
+        "texture { pigment { rgbt <0, 1, 0, .5> } }");
+    NUMBERS(m->color[0], 0.5, 0.5, 0, 0, 0);
+    m = material_of("texture { pigment { rgb 1 } }\n"
+                    "texture { pigment { rgbf <0, 0, 1, 1> } }");
+    NUMBERS(m->color[0], 0, 0, 1, 0, 0);
+    const brume_scene *s = scene(
+        "#declare T = texture { pigment { checker rgb 1 rgb 0 } }\n"
+        "            texture { pigment { rgbt 1 } }\n"
+        "#declare U = texture { T } texture { pigment { rgbt 1 } }\n"
+        "sphere { 0, 1 texture { U scale 2 } }\n"
+        "sphere { 0, 1 texture { T } pigment { rgb x } }\n");
+    NUMBERS(s->material[0].color[0], 0.5, 0.5, 0.5, 0, 0);
+    NUMBERS(s->material[1].color[0], 1, 0, 0, 0, 0);
+}
+
+static void surfaces_that_are_wrong(void **state)
+{
+    (void)state;
+    expect_error("sphere { 0, 1 pigment { bozo mortar 1 } }", BRUME_ERR_SCENE,
+                 1, 30, "'mortar' does not belong to this pattern");
+    expect_error("sphere { 0, 1 pigment { facets size 1 } }", BRUME_ERR_SCENE,
+                 1, 25, "for normals only");
+    expect_error("sphere { 0, 1 texture { bozo } }", BRUME_ERR_SCENE, 1, 30,
+                 "needs textures");
+    expect_error("sphere { 0, 1 pigment { average } }", BRUME_ERR_SCENE, 1, 33,
+                 "needs a map");
+    expect_error("sphere { 0, 1 pigment { checker rgb 1 color_map { [0 rgb 1] "
+                 "} } }",
+                 BRUME_ERR_SCENE, 1, 63, "from a list");
+    expect_error("sphere { 0, 1 pigment { bozo pigment_map { [checker] } } }",
+                 BRUME_ERR_SCENE, 1, 52, "begins with a float");
+    expect_error("sphere { 0, 1 pigment { bozo color_map { } } }",
+                 BRUME_ERR_SCENE, 1, 42, "needs an entry");
+    expect_error("sphere { 0, 1 pigment { bozo warp { repeat x + y } } }",
+                 BRUME_ERR_SCENE, 1, 44, "one axis");
+    expect_error("sphere { 0, 1 pigment { tiling 28 } }", BRUME_ERR_SCENE, 1,
+                 32, "'tiling' is 28");
+    expect_error("sphere { 0, 1 finish { albedo 1 } }", BRUME_ERR_SCENE, 1, 24,
+                 "'albedo' belongs behind");
+    expect_error("sphere { 0, 1 pigment { magnet 1 } }", BRUME_ERR_SCENE, 1, 34,
+                 "'mandel' or 'julia'");
+    expect_error("sphere { 0, 1 pigment { image_map { png \"none.png\" } } }",
+                 BRUME_ERR_FILE, 1, 41, "not found");
+}
+
+/* What is not drawn yet is told once, of what is placed. */
+static void lacks(void **state)
+{
+    (void)state;
+    scene("#declare T = texture { normal { bumps } }\n"
+          "sphere { 0, 1 pigment { checker rgb 1 rgb 0 } }");
+    assert_null(first_of(DIAG_WARNING));
+    expect_warning("sphere { 0, 1 }\n"
+                   "sphere { 0, 1 normal { bumps .3 } finish { reflection .1 "
+                   "irid { .2 } } pigment { agate } interior { ior 2 } }\n"
+                   "sphere { 0, 1 normal { bumps } }\n"
+                   "sphere { 0, 1 pigment { rgbf 1 } interior { ior 2 } }\n",
+                   2, 1,
+                   "lacks what is not drawn yet: patterned pigments, normals, "
+                   "reflection, iridescence, refraction");
+    assert_ptr_equal(first_of(DIAG_WARNING), diag.first);
+    assert_null(diag.first->next);
 }
 
 static void defaults(void **state)
@@ -522,6 +616,10 @@ int main(void)
         cmocka_unit_test(finishes),
         cmocka_unit_test(pigments),
         cmocka_unit_test(textures),
+        cmocka_unit_test(patterns_have_means),
+        cmocka_unit_test(layers_cover),
+        cmocka_unit_test(surfaces_that_are_wrong),
+        cmocka_unit_test(lacks),
         cmocka_unit_test(defaults),
         cmocka_unit_test(declarations_inside_of_statements),
         cmocka_unit_test(identifiers_keep_their_values),

@@ -198,8 +198,26 @@ static struct texture colored(double r, double g, double b, double filter,
     struct texture texture = model_default_texture;
     double color[5] = {r, g, b, filter, transmit};
 
-    memcpy(texture.pigment.color[0], color, sizeof color);
+    memcpy(texture.pigment.color, color, sizeof color);
     return texture;
+}
+
+/* A checker of the colour above and another. */
+static struct pattern checker = {.kind = PATTERN_CHECKER, .frequency = 1};
+static struct map_entry choice[2];
+static struct map choices = {.kind = VALUE_COLOR_MAP, .list = true, .count = 2};
+
+static void chequer(struct texture *texture, double transmit)
+{
+    double color[5] = {1, 1, 1, 0, transmit};
+
+    memcpy(choice[0].color, texture->pigment.color, sizeof color);
+    memcpy(choice[1].color, color, sizeof color);
+    choice[0].next = &choice[1];
+    choices.first = &choice[0];
+    texture->pigment.on.pattern = &checker;
+    texture->pigment.on.map = &choices;
+    surface_mean_pigment(&texture->pigment);
 }
 
 static void clear_textures_are_invisible(void **state)
@@ -220,7 +238,10 @@ static void clear_textures_are_invisible(void **state)
     texture.finish.phong = 0.5;
     assert_false(model_is_invisible(&texture));
     texture = colored(1, 1, 1, 0, 1);
-    texture.pigment.kind = BRUME_PIGMENT_CHECKER;
+    chequer(&texture, 0);
+    assert_false(model_is_invisible(&texture));
+    texture = colored(1, 1, 1, 0, 1);
+    texture.finish.reflection.high[1] = 0.1;
     assert_false(model_is_invisible(&texture));
 }
 
@@ -230,10 +251,11 @@ static void textures_without_filter_and_transmit_are_opaque(void **state)
     (void)state;
 
     assert_true(model_is_opaque(&texture));
-    texture.pigment.color[1][4] = 0.5;
-    assert_true(model_is_opaque(&texture));
-    texture.pigment.kind = BRUME_PIGMENT_CHECKER;
+    chequer(&texture, 0.5);
     assert_false(model_is_opaque(&texture));
+    struct texture below = colored(1, 1, 1, 0, 0);
+    texture.below = &below;
+    assert_true(model_is_opaque(&texture));
 }
 
 static void maps_follow_the_pigment(void **state)
@@ -243,10 +265,10 @@ static void maps_follow_the_pigment(void **state)
     struct brume_material material;
     (void)state;
 
-    texture.pigment.by = transform_scale((const double[3]){2, 2, 2});
+    texture.pigment.on.by = transform_scale((const double[3]){2, 2, 2});
     model_material(&texture, &by, &material);
     assert_true(material.pigment_transform[0][0] == 1);
-    texture.pigment.kind = BRUME_PIGMENT_CHECKER;
+    chequer(&texture, 0);
     model_material(&texture, &by, &material);
     assert_true(material.pigment_transform[0][0] == 2);
     assert_true(material.pigment_transform[2][3] == 3);
@@ -262,12 +284,12 @@ static void maps_reach_the_densities_that_are_there(void **state)
     (void)state;
 
     for (int i = 0; i < 2; i++)
-        media.density[i].by = transform_identity();
-    media.fire.temperature.by = transform_identity();
+        media.density[i].on.by = transform_identity();
+    media.fire.temperature.on.by = transform_identity();
     model_media_transform(&media, &by);
-    assert_true(media.density[0].by.m[0][3] == 1);
-    assert_true(media.density[1].by.m[0][3] == 0);
-    assert_true(media.fire.temperature.by.m[1][3] == 2);
+    assert_true(media.density[0].on.by.m[0][3] == 1);
+    assert_true(media.density[1].on.by.m[0][3] == 0);
+    assert_true(media.fire.temperature.on.by.m[1][3] == 2);
 }
 
 /* Cycles emits 5.670373e-8 * 1e-6 / pi * T^4 in luminance. */
