@@ -2,6 +2,7 @@
 #ifndef CORE_PHYSICS_INTERNAL_H
 #define CORE_PHYSICS_INTERNAL_H
 #include "core/physics/internal_field.h"
+#include "core/physics/internal_noise.h"
 #include "core/physics/internal_shape.h"
 
 /* NAME, number of internal(), parameters after x, y, z */
@@ -11,6 +12,7 @@
     X(cross_ellipsoids, 10, 4)                                                \
     X(ellipsoid, 17, 3)                                                       \
     X(flange_cover, 19, 4)                                                    \
+    X(hetero_mf, 29, 6)                                                       \
     X(helical_torus, 24, 10)                                                  \
     X(helix1, 25, 7)                                                          \
     X(helix2, 26, 7)                                                          \
@@ -18,11 +20,15 @@
     X(hex_y, 28, 1)                                                           \
     X(isect_ellipsoids, 32, 4)                                                \
     X(mesh1, 40, 5)                                                           \
+    X(noise3d, 76, 0)                                                         \
+    X(noise_generator, 78, 1)                                                 \
     X(ph, 47, 0)                                                              \
     X(poly4, 51, 5)                                                           \
     X(polytubes, 52, 6)                                                       \
     X(quantum, 53, 1)                                                         \
     X(r, 57, 0)                                                               \
+    X(ridge, 58, 6)                                                           \
+    X(ridged_mf, 59, 6)                                                       \
     X(rounded_box, 60, 4)                                                     \
     X(sphere, 61, 1)                                                          \
     X(spikes, 62, 5)                                                          \

@@ -13,8 +13,7 @@ import tempfile
 INCLUDE = "/usr/share/povray-3.7/include/functions.inc"
 ROWS = 12
 # Not identified: Brume has none.
-LEFT_OUT = {"comma", "hetero_mf", "ridge", "ridged_mf", "noise3d",
-            "noise_generator"}
+LEFT_OUT = {"comma"}
 # Parameters after x, y, z, as the manual lists them; a pair is a range.
 PLAIN = (0.2, 2)
 ANY = (-2, 2)
@@ -22,6 +21,8 @@ SWITCH = [0, 1]
 SWEEP = [SWITCH, ANY, (-90, 90)]
 STRENGTH = (-0.1, 0.1)
 FIELD = [STRENGTH]
+GENERATOR = [0, 1, 2, 3]
+FRACTAL = [(0.2, 1), (1.5, 3), [1, 2, 3, 5.5], (0, 1.5), [0.5, 1, 2], GENERATOR]
 PARAMETERS = {
     "algbr_cyl1": FIELD + [PLAIN] + SWEEP, "algbr_cyl2": FIELD + [PLAIN] + SWEEP,
     "algbr_cyl3": FIELD + [PLAIN] + SWEEP, "algbr_cyl4": FIELD + [PLAIN] + SWEEP,
@@ -44,7 +45,11 @@ PARAMETERS = {
     "kampyle_of_eudoxus_2d": FIELD + [PLAIN] * 2 + SWEEP,
     "kummer_surface_v2": FIELD + [ANY] * 3,
     "lemniscate_of_gerono_2d": FIELD + [PLAIN] * 2 + SWEEP,
-    "mesh1": [PLAIN] * 5, "ovals_of_cassini": FIELD + [PLAIN] * 3,
+    "noise3d": [], "noise_generator": [GENERATOR], "hetero_mf": FRACTAL,
+    "ridge": [(1.5, 3), [1, 2, 3, 5.5], (0.2, 1), (0, 1.5), (0, 1.5),
+              GENERATOR],
+    # POV-Ray goes on with the first three of the first call.
+    "ridged_mf": [[0.7], [2.17], [4]] + FRACTAL[3:], "mesh1": [PLAIN] * 5, "ovals_of_cassini": FIELD + [PLAIN] * 3,
     "parabolic_torus": FIELD + [PLAIN] * 2, "ph": [], "r": [], "th": [],
     "piriform_2d": FIELD + [PLAIN, ANY, PLAIN] + SWEEP,
     "poly4": [ANY] * 5, "polytubes": [[1, 2, 3, 4, 7]] + [ANY] * 5,
