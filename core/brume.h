@@ -461,6 +461,10 @@ BRUME_API bool brume_function_transform(struct brume_function *function,
                                         const double transform[3][4],
                                         struct brume_error *err);
 
+/* Leaves the operands that are on top a second time. */
+BRUME_API bool brume_function_copy(struct brume_function *function, int count,
+                                   struct brume_error *err);
+
 /* A block is opened after its operands; its bodies are parted by next, and
  * close ends it. */
 BRUME_API bool brume_function_open(struct brume_function *function,
@@ -494,6 +498,113 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
                                    const double *arguments, int count,
                                    double out[BRUME_MAX_RESULTS],
                                    struct brume_error *err);
+
+/* Pigments, patterns and densities are functions of a point too: of one
+ * value, or of five, red, green, blue, filter, transmit. A pattern under a
+ * transform, with its map, is written so:
+ *
+ *     f = brume_function_new(scene, 3, err);
+ *     brume_function_parameter(f, 0, err);    and 1, 2: the point
+ *     brume_function_inverse(f, transform, err);
+ *     brume_function_copy(f, 3, err);
+ *     brume_function_pattern(f, BRUME_PATTERN_BOZO, numbers, 1, err);
+ *     brume_function_wave(f, BRUME_WAVE_RAMP, 1, 1, 0, err);
+ *     brume_function_map(f, &map, err);
+ *
+ * What is written last in the scene comes first here: it is undone first. */
+
+/* Their numbers, in this order; they are checked. Generator is 1, 2 or 3;
+ * octaves, lambda, omega are those of turbulence. Where turbulence is among
+ * them no warp shall give it, but for the spirals, which have both.
+ *   agate        generator, octaves, lambda, omega, agate_turb
+ *   bozo dents granite wrinkles  generator; bumps and spotted are bozo
+ *   brick        size x y z, mortar
+ *   crackle      generator, form x y z, metric, offset, solid (0, 1)
+ *   fractal      magnet (0: none), iterations, exponent, exterior type,
+ *                factor, interior type, factor, julia (0: mandel), c re im
+ *   gradient     direction x y z
+ *   marble       generator, octaves, lambda, omega, amount x
+ *   quilted      control0, control1
+ *   ripples waves  count of sources (1 to 100), frequency, phase
+ *   spiral1 spiral2  generator, octaves, lambda, omega, amount x, arms
+ *   wood         octaves, lambda, omega, amount x y
+ *   the others none. Of brick, checker, cubic, hexagon, square, triangular the
+ * value is the number of an item of a list, and goes through no wave. */
+enum brume_pattern {
+    BRUME_PATTERN_AGATE, BRUME_PATTERN_BOXED, BRUME_PATTERN_BOZO,
+    BRUME_PATTERN_BRICK, BRUME_PATTERN_CELLS, BRUME_PATTERN_CHECKER,
+    BRUME_PATTERN_CRACKLE, BRUME_PATTERN_CUBIC, BRUME_PATTERN_CYLINDRICAL,
+    BRUME_PATTERN_DENTS, BRUME_PATTERN_FRACTAL, BRUME_PATTERN_GRADIENT,
+    BRUME_PATTERN_GRANITE, BRUME_PATTERN_HEXAGON, BRUME_PATTERN_LEOPARD,
+    BRUME_PATTERN_MARBLE, BRUME_PATTERN_ONION, BRUME_PATTERN_PLANAR,
+    BRUME_PATTERN_QUILTED, BRUME_PATTERN_RADIAL, BRUME_PATTERN_RIPPLES,
+    BRUME_PATTERN_SPHERICAL, BRUME_PATTERN_SPIRAL1, BRUME_PATTERN_SPIRAL2,
+    BRUME_PATTERN_SQUARE, BRUME_PATTERN_TRIANGULAR, BRUME_PATTERN_WAVES,
+    BRUME_PATTERN_WOOD, BRUME_PATTERN_WRINKLES
+};
+
+/* From the point in question to the point where a pattern is looked up.
+ *   black_hole   centre x y z, radius, strength, falloff, inverse (0, 1),
+ *                repeat x y z (0: not along it), turbulence x y z, turbulent
+ *                (0, 1)
+ *   cubic        none
+ *   cylindrical spherical  orientation x y z (unit), dist_exp
+ *   planar       orientation x y z (unit), distance along it
+ *   repeat       axis (0, 1, 2), width, offset x y z, flip x y z
+ *   toroidal     orientation x y z (unit), dist_exp, major radius
+ *   turbulence   octaves, lambda, omega, amount x y z */
+enum brume_warp {
+    BRUME_WARP_BLACK_HOLE, BRUME_WARP_CUBIC, BRUME_WARP_CYLINDRICAL,
+    BRUME_WARP_PLANAR, BRUME_WARP_REPEAT, BRUME_WARP_SPHERICAL,
+    BRUME_WARP_TOROIDAL, BRUME_WARP_TURBULENCE
+};
+
+enum brume_wave {
+    BRUME_WAVE_RAMP, BRUME_WAVE_TRIANGLE, BRUME_WAVE_SINE, BRUME_WAVE_SCALLOP,
+    BRUME_WAVE_CUBIC, BRUME_WAVE_POLY
+};
+
+/* Takes a point and leaves A^-1 (p - b): where it was before a transform. */
+BRUME_API bool brume_function_inverse(struct brume_function *function,
+                                      const double transform[3][4],
+                                      struct brume_error *err);
+/* Takes a point and leaves a point. `count` must be that of the kind. */
+BRUME_API bool brume_function_warp(struct brume_function *function,
+                                   enum brume_warp kind, const double *numbers,
+                                   int count, struct brume_error *err);
+/* Takes a point and leaves a value. */
+BRUME_API bool brume_function_pattern(struct brume_function *function,
+                                      enum brume_pattern kind,
+                                      const double *numbers, int count,
+                                      struct brume_error *err);
+/* Takes a value and leaves its place in a map, from 0 to 1; the exponent is
+ * that of poly_wave. */
+BRUME_API bool brume_function_wave(struct brume_function *function,
+                                   enum brume_wave type, double exponent,
+                                   double frequency, double phase,
+                                   struct brume_error *err);
+
+enum { BRUME_MAX_ENTRIES = 4096 };
+
+/* What a value chooses from: numbers, or functions of the point. */
+struct brume_map {
+    int count, terms;           /* entries; numbers that each gives        */
+    const double *places;       /* of the entries, from 0 to 1, ascending;
+                                   NULL: a value is an entry's number      */
+    const double *values;       /* count times terms, if                   */
+    const int *functions;       /* ... this is NULL                        */
+};
+/* Takes a point and a value and leaves the terms: of the two entries beside
+ * the value, blended, or of the entry of that number, the first or last if
+ * there is none. */
+BRUME_API bool brume_function_map(struct brume_function *function,
+                                  const struct brume_map *map,
+                                  struct brume_error *err);
+/* Takes a point and leaves the mean of a map's functions there; their places
+ * are weights. */
+BRUME_API bool brume_function_average(struct brume_function *function,
+                                      const struct brume_map *map,
+                                      struct brume_error *err);
 
 enum brume_spline_kind {
     BRUME_SPLINE_LINEAR, BRUME_SPLINE_QUADRATIC, BRUME_SPLINE_CUBIC,

@@ -14,11 +14,22 @@ static bool fail(struct brume_function *f)
     return false;
 }
 
+bool function_fail(struct brume_function *f, struct brume_error *err,
+                   enum brume_code code, const char *text)
+{
+    brume_fail(err, code, "%s", text);
+    return fail(f);
+}
+
 static bool fail_scene(struct brume_function *f, struct brume_error *err,
                        const char *text)
 {
-    brume_fail(err, BRUME_ERR_SCENE, "%s", text);
-    return fail(f);
+    return function_fail(f, err, BRUME_ERR_SCENE, text);
+}
+
+struct brume_scene *function_scene(const struct brume_function *f)
+{
+    return f->scene;
 }
 
 static bool usable(struct brume_function *f, struct brume_error *err)
@@ -54,8 +65,8 @@ void brume_function_free(struct brume_function *function)
 
 /* ---- instructions ------------------------------------------------------ */
 
-static bool emit(struct brume_function *f, enum machine_op op, int dst,
-                 int32_t a, int32_t b, int32_t c, struct brume_error *err)
+bool function_emit(struct brume_function *f, enum machine_op op, int dst,
+                   int32_t a, int32_t b, int32_t c, struct brume_error *err)
 {
     if (f->count >= CODE_LIMIT) {
         brume_fail(err, BRUME_ERR_LIMIT,
@@ -95,8 +106,8 @@ bool pool_add(struct brume_scene *s, const double *numbers, size_t count,
     return true;
 }
 
-static bool numbers(struct brume_function *f, const double *values,
-                    size_t count, int32_t *first, struct brume_error *err)
+bool function_numbers(struct brume_function *f, const double *values,
+                      size_t count, int32_t *first, struct brume_error *err)
 {
     return usable(f, err) &&
            (pool_add(f->scene, values, count, first, err) || fail(f));
@@ -158,7 +169,7 @@ static bool settle(struct brume_function *f, int height,
     if (at == home(f, height))
         return true;
     f->stack[height] = home(f, height);
-    return emit(f, MACHINE_MOVE, home(f, height), at, 0, 0, err);
+    return function_emit(f, MACHINE_MOVE, home(f, height), at, 0, 0, err);
 }
 
 static bool settle_top(struct brume_function *f, int count,
@@ -170,6 +181,17 @@ static bool settle_top(struct brume_function *f, int count,
     return true;
 }
 
+bool function_give(struct brume_function *f, bool done, int gives,
+                   struct brume_error *err)
+{
+    if (!done)
+        return fail(f);
+    for (int i = 0; i < gives; i++)
+        if (!push_home(f, err))
+            return false;
+    return true;
+}
+
 bool function_wide(struct brume_function *f, enum machine_op op, int takes,
                    int gives, int32_t a, int32_t b, int32_t c,
                    struct brume_error *err)
@@ -177,12 +199,50 @@ bool function_wide(struct brume_function *f, enum machine_op op, int takes,
     if (!has(f, takes, err) || !settle_top(f, takes, err))
         return false;
     f->height -= takes;
-    if (!reach(f, home(f, f->height) + gives, err) ||
-        !emit(f, op, home(f, f->height), a, b, c, err))
+    int dst = home(f, f->height);
+    return reach(f, dst + gives, err) &&
+           function_give(f, function_emit(f, op, dst, a, b, c, err), gives,
+                         err);
+}
+
+bool function_take(struct brume_function *f, int takes, int *at,
+                   struct brume_error *err)
+{
+    if (!has(f, takes, err) || !settle_top(f, takes, err))
         return false;
-    for (int i = 0; i < gives; i++)
-        if (!push_home(f, err))
+    f->height -= takes;
+    *at = home(f, f->height);
+    return reach(f, *at + takes + 3 + 2 * BRUME_MAX_RESULTS, err);
+}
+
+bool function_calls(struct brume_function *f, int id, int dst,
+                    struct brume_error *err)
+{
+    const machine_function *callee = &f->scene->functions[id];
+    if (callee->calls + 1 > f->calls)
+        f->calls = callee->calls + 1;
+    return reach(f, dst + callee->registers, err);
+}
+
+int32_t function_top(const struct brume_function *f, int below)
+{
+    return home(f, f->height - below);
+}
+
+bool brume_function_copy(struct brume_function *function, int count,
+                         struct brume_error *err)
+{
+    struct brume_function *f = function;
+    if (count < 0 || !has(f, count, err))
+        return fail_scene(f, err,
+                          "an operation of a function lacks an operand");
+    int first = f->height - count;
+    for (int i = 0; i < count; i++) {
+        int32_t at = f->stack[first + i];
+        bool lasts = at < home(f, first);
+        if (!push(f, at, err) || (!lasts && !settle(f, f->height - 1, err)))
             return false;
+    }
     return true;
 }
 
@@ -192,7 +252,7 @@ bool brume_function_constant(struct brume_function *function, double value,
                              struct brume_error *err)
 {
     int32_t first = 0;
-    return numbers(function, &value, 1, &first, err) &&
+    return function_numbers(function, &value, 1, &first, err) &&
            push(function, ~first, err);
 }
 
@@ -234,7 +294,8 @@ bool brume_function_op(struct brume_function *function, enum brume_op op,
     f->height -= takes;
     int32_t a = f->stack[f->height];
     int32_t b = takes == 2 ? f->stack[f->height + 1] : 0;
-    return emit(f, machine_ops[op], home(f, f->height), a, b, 0, err) &&
+    return function_emit(f, machine_ops[op], home(f, f->height), a, b, 0,
+                         err) &&
            push_home(f, err);
 }
 
@@ -273,9 +334,7 @@ bool brume_function_call(struct brume_function *function, int id, int arguments,
     if (i)
         return function_wide(f, MACHINE_INTERNAL, arguments, 1,
                              home(f, f->height - arguments), i->b, 0, err);
-    if (callee->calls + 1 > f->calls)
-        f->calls = callee->calls + 1;
-    return reach(f, home(f, f->height - arguments) + callee->registers, err) &&
+    return function_calls(f, id, home(f, f->height - arguments), err) &&
            function_wide(f, MACHINE_CALL, arguments, callee->results, id, 0, 0,
                          err);
 }
@@ -299,7 +358,7 @@ bool brume_function_transform(struct brume_function *function,
                               struct brume_error *err)
 {
     int32_t first = 0;
-    return numbers(function, transform[0], 12, &first, err) &&
+    return function_numbers(function, transform[0], 12, &first, err) &&
            function_wide(function, MACHINE_TRANSFORM, 3, 3, first, 0, 0, err);
 }
 
@@ -323,7 +382,8 @@ static bool open_select(struct brume_function *f, struct function_block *b,
 {
     b->condition = f->stack[--f->height];
     b->test[0] = f->count;
-    return emit(f, MACHINE_JUMP_NOT_NEGATIVE, 0, 0, b->condition, 0, err);
+    return function_emit(f, MACHINE_JUMP_NOT_NEGATIVE, 0, 0, b->condition, 0,
+                         err);
 }
 
 /* The variable, its last value and the sum so far, each at home. */
@@ -337,7 +397,8 @@ static bool open_loop(struct brume_function *f, struct function_block *b,
         return false;
     int variable = home(f, f->height - 3);
     b->test[0] = f->count;
-    return emit(f, MACHINE_JUMP_GREATER, 0, 0, variable, variable + 1, err);
+    return function_emit(f, MACHINE_JUMP_GREATER, 0, 0, variable, variable + 1,
+                         err);
 }
 
 bool brume_function_open(struct brume_function *function,
@@ -386,14 +447,14 @@ bool brume_function_next(struct brume_function *function,
         return fail_scene(f, err, "select has two or three alternatives");
     b->leave[b->bodies - 1] = f->count;
     f->height--;
-    if (!emit(f, MACHINE_JUMP, 0, 0, 0, 0, err))
+    if (!function_emit(f, MACHINE_JUMP, 0, 0, 0, 0, err))
         return false;
     land(f, b->test[b->bodies - 1]);
     if (b->bodies++ == 2)
         return true;
     /* For a third alternative; without one, close leads around this. */
     b->test[1] = f->count;
-    return emit(f, MACHINE_JUMP_NOT_ZERO, 0, 0, b->condition, 0, err);
+    return function_emit(f, MACHINE_JUMP_NOT_ZERO, 0, 0, b->condition, 0, err);
 }
 
 static bool close_select(struct brume_function *f, struct function_block *b,
@@ -414,13 +475,13 @@ static bool close_loop(struct brume_function *f, struct function_block *b,
     bool sum = b->kind == BRUME_BLOCK_SUM;
     int variable = home(f, f->height - 4), total = variable + 2;
     f->height -= 4;
-    if (!emit(f, sum ? MACHINE_ADD : MACHINE_MULTIPLY, total, total, total + 1,
-              0, err) ||
-        !emit(f, MACHINE_LOOP, variable, (int32_t)(f->count - b->test[0] + 1),
-              0, 0, err))
+    if (!function_emit(f, sum ? MACHINE_ADD : MACHINE_MULTIPLY, total, total,
+                       total + 1, 0, err) ||
+        !function_emit(f, MACHINE_LOOP, variable,
+                       (int32_t)(f->count - b->test[0] + 1), 0, 0, err))
         return false;
     land(f, b->test[0]);
-    return emit(f, MACHINE_MOVE, variable, total, 0, 0, err) &&
+    return function_emit(f, MACHINE_MOVE, variable, total, 0, 0, err) &&
            push_home(f, err);
 }
 
@@ -459,7 +520,8 @@ static bool end(struct brume_function *f, struct brume_error *err)
         return fail_scene(f, err, "a function has one to five results");
     if (f->height > 1 && !settle_top(f, f->height, err))
         return false;
-    return emit(f, MACHINE_RETURN, 0, f->stack[0], f->height, 0, err) &&
+    return function_emit(f, MACHINE_RETURN, 0, f->stack[0], f->height, 0,
+                         err) &&
            reach(f, f->height, err);
 }
 
@@ -525,7 +587,7 @@ int brume_add_internal(brume_scene *scene, int number, struct brume_error *err)
     struct brume_function *f = brume_function_new(scene, 3 + parameters, err);
     if (!f)
         return -1;
-    emit(f, MACHINE_INTERNAL, 3 + parameters, 0, number, 0, err);
+    function_emit(f, MACHINE_INTERNAL, 3 + parameters, 0, number, 0, err);
     push_home(f, err);
     return brume_add_function(scene, f, err);
 }

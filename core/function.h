@@ -7,6 +7,7 @@
 #ifndef PHYSICS_DOUBLE
 #error "functions are written and verified in double"
 #endif
+#include "core/matrix.h"
 #include "core/physics/machine.h"
 #include "core/scene.h"
 
@@ -50,11 +51,42 @@ bool pool_add(struct brume_scene *s, const double *numbers, size_t count,
 bool spline_check(const struct brume_scene *s, int id, int kind,
                   struct brume_error *err);
 
+/* How many numbers from there on a pattern or warp has (1 for none), the
+ * sources of waves included; 0 if there are not so many, or not such ones. */
+size_t pattern_size(int kind, const double *numbers, size_t room);
+size_t warp_size(int kind, const double *numbers, size_t room);
+
 /* ---- what writes more than brume.h's operations ------------------------ */
+
+struct brume_scene *function_scene(const struct brume_function *f);
+
+/* The function has failed; false. */
+bool function_fail(struct brume_function *f, struct brume_error *err,
+                   enum brume_code code, const char *text);
+
+bool function_numbers(struct brume_function *f, const double *values,
+                      size_t count, int32_t *first, struct brume_error *err);
+bool function_emit(struct brume_function *f, enum machine_op op, int dst,
+                   int32_t a, int32_t b, int32_t c, struct brume_error *err);
+
+/* The register of the operand so far below the top, at its home. */
+int32_t function_top(const struct brume_function *f, int below);
 
 /* An instruction on `takes` operands, put at their places in the frame from
  * dst on, that leaves `gives` results there. */
 bool function_wide(struct brume_function *f, enum machine_op op, int takes,
                    int gives, int32_t a, int32_t b, int32_t c,
                    struct brume_error *err);
+
+/* The same of several instructions: *at is where the operands stand and the
+ * results shall; beyond the operands there is room for 3 numbers and those of
+ * two calls. Then gives, if all was done. */
+bool function_take(struct brume_function *f, int takes, int *at,
+                   struct brume_error *err);
+bool function_give(struct brume_function *f, bool done, int gives,
+                   struct brume_error *err);
+
+/* Accounts for a call with its frame at register dst. */
+bool function_calls(struct brume_function *f, int id, int dst,
+                    struct brume_error *err);
 #endif

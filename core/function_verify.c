@@ -58,6 +58,42 @@ static bool is_spline(const struct verifier *v, const machine_instruction *i)
     return false;
 }
 
+/* The size of what lies in the pool at an operand; 0 if it is none. */
+static size_t pool_room(const struct verifier *v, int32_t operand)
+{
+    size_t count = v->scene->pool_count;
+    return operand >= 0 && (size_t)operand < count ? count - (size_t)operand
+                                                   : 0;
+}
+
+/* A map whose terms, if it has any, have room from dst on. */
+static bool is_map(const struct verifier *v, const machine_instruction *i)
+{
+    size_t room = pool_room(v, i->a);
+    const double *map = v->scene->pool + i->a;
+    if (room < BLEND_HEAD || !(map[0] >= 1 && map[0] <= BRUME_MAX_ENTRIES) ||
+        !(map[1] >= 0 && map[1] <= BRUME_MAX_RESULTS))
+        return false;
+    return BLEND_HEAD + (size_t)map[0] * (1 + (size_t)map[1]) <= room &&
+           in_frame(v, i->dst, (int64_t)map[1]);
+}
+
+/* Functions of a point, the frame of each of which fits at dst. */
+static bool is_table(const struct verifier *v, const machine_instruction *i)
+{
+    size_t room = pool_room(v, i->a);
+    const double *table = v->scene->pool + i->a;
+    if (room < 1 || !(table[0] >= 1 && table[0] <= BRUME_MAX_ENTRIES) ||
+        1 + (size_t)table[0] > room)
+        return false;
+    for (int k = 1; k <= (int)table[0]; k++)
+        if (!(table[k] >= 0 && table[k] < v->id) ||
+            !is_call(v, (int32_t)table[k], i->dst) ||
+            v->scene->functions[(int)table[k]].parameters != 3)
+            return false;
+    return true;
+}
+
 static bool operand_holds(const struct verifier *v, char shape,
                           const machine_instruction *i, int32_t operand,
                           int32_t at)
@@ -70,7 +106,19 @@ static bool operand_holds(const struct verifier *v, char shape,
     case 'l':
         return operand > 0 && operand <= at + 1;
     case 'p':
-        return operand >= 0 && (size_t)operand < v->scene->pool_count;
+        return pool_room(v, operand) >= 12;
+    case '4':
+        return pool_room(v, operand) >= 4;
+    case 'w':
+        return warp_size(i->c, v->scene->pool + operand,
+                         pool_room(v, operand)) > 0;
+    case 'm':
+        return pattern_size(i->c, v->scene->pool + operand,
+                            pool_room(v, operand)) > 0;
+    case 'b':
+        return is_map(v, i);
+    case 't':
+        return is_table(v, i);
     case 'i':
         return is_internal(v, i);
     case 's':
@@ -89,8 +137,12 @@ static bool special_holds(const struct verifier *v,
     switch (i->op) {
     case MACHINE_RETURN:
         return i->b == v->f->results && (i->b == 1 || in_frame(v, i->a, i->b));
-    case MACHINE_TRANSFORM:
-        return (size_t)i->a + 12 <= v->scene->pool_count;
+    case MACHINE_MIX:
+        return i->c >= 1 && in_frame(v, i->a, 2 * (int64_t)i->c) &&
+               in_frame(v, i->dst, i->c);
+    case MACHINE_COPY:
+        return i->c >= 1 && in_frame(v, i->a, i->c) &&
+               in_frame(v, i->dst, i->c);
     default:
         return true;
     }

@@ -13,7 +13,10 @@
  * POV-Ray. Comparisons are exact and give 1 or 0. */
 #ifndef CORE_PHYSICS_MACHINE_H
 #define CORE_PHYSICS_MACHINE_H
+#include "core/physics/blend.h"
 #include "core/physics/internal.h"
+#include "core/physics/pattern.h"
+#include "core/physics/pattern_warp.h"
 #include "core/physics/spline.h"
 
 enum {
@@ -74,8 +77,10 @@ enum {
 
 /* The rest: NAME, and what dst, a, b and c are, for the verifier: a digit is
  * that many registers from dst on; v a value, r a register, j a distance to
- * jump forward, l one to loop back, f a function, i the first argument of an
- * internal function, s a spline, n a plain number, - none. */
+ * jump forward, l one to loop back, f a function, n a plain number, - none.
+ * Of what has a form of its own, i is the first argument of an internal
+ * function; in the pool p are 12 numbers, 4 are 4, s is a spline, w the
+ * numbers of a warp, m of a pattern, b a map and t a table of functions. */
 #define MACHINE_OTHER(X)                                                      \
     X(RETURN, "-vn-")       /* b results: one is a, more are registers a...*/ \
     X(CALL, "-f--")         /* frame at dst                                */ \
@@ -87,6 +92,17 @@ enum {
     X(INTERNAL, "1in-")     /* internal(b) of registers a...               */ \
     X(SPLINE, "-sv-")       /* dst... = the spline at b, as one of type c  */ \
     X(TRANSFORM, "3p--")    /* 12 numbers of the pool: rows of A|b         */ \
+    X(WARP, "3w--")         /* the point at dst, through a warp of kind c  */ \
+    X(PATTERN, "3m--")      /* dst = pattern of kind c at the point there  */ \
+    X(WAVE, "14v-")         /* of type, exponent, frequency and phase      */ \
+    X(BLEND, "-bv-")        /* dst... = the values of a map at b           */ \
+    X(CHOOSE, "-bv-")       /* dst... = those of its entry number b        */ \
+    X(FIND, "2bv-")         /* dst = entry of a map before b, dst + 1 what    \
+                               part of the next entry b is to have         */ \
+    X(CALL_ENTRY, "-tvn")   /* the function of a table for entry b + c     */ \
+    X(MIX, "-nvn")          /* dst... = a... and b of the c numbers after     \
+                               them                                        */ \
+    X(COPY, "-n-n")         /* dst... = the c registers a...               */ \
     X(GRAY, "3---")         /* dst becomes the gray of a colour            */ \
     X(HEIGHT, "3---")       /* ... its height, as in a height field        */
 
@@ -139,6 +155,40 @@ HD void machine_return(const machine *m, const machine_instruction *i, real *r)
     }
     for (int k = 0; k < i->b; k++)
         r[k] = r[i->a + k];
+}
+
+HD real3 machine_point(const real *r)
+{
+    return real3_make(r[0], r[1], r[2]);
+}
+
+HD void machine_warp(const real *numbers, int kind, real *r)
+{
+    real3 p = pattern_warp(kind, machine_point(r), numbers);
+    r[0] = p.x;
+    r[1] = p.y;
+    r[2] = p.z;
+}
+
+HD real machine_wave(const real *p, real value)
+{
+    return wave_value((int)p[0], p[1], p[2], p[3], value);
+}
+
+/* Code of the function that a table, which begins with their count, has for
+ * an entry. */
+HD int32_t machine_entry(const machine *m, const machine_instruction *i,
+                         const real *r)
+{
+    const real *table = m->pool + i->a;
+    int entry = blend_index(machine_value(m, r, i->b) + (real)i->c, table[0]);
+    return m->functions[(int32_t)table[1 + entry]].code;
+}
+
+HD void machine_mix(const real *a, real part, int count, real *out)
+{
+    for (int k = 0; k < count; k++)
+        out[k] = a[k] + part * (a[count + k] - a[k]);
 }
 
 /* Evaluates a function whose arguments stand in registers[0...]; its results
@@ -216,6 +266,45 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
             break;
         case MACHINE_TRANSFORM:
             machine_transform(m->pool + i->a, r + i->dst);
+            break;
+        case MACHINE_WARP:
+            machine_warp(m->pool + i->a, i->c, r + i->dst);
+            break;
+        case MACHINE_PATTERN:
+            r[i->dst] = pattern_value(i->c, machine_point(r + i->dst),
+                                      m->pool + i->a);
+            break;
+        case MACHINE_WAVE:
+            r[i->dst] = machine_wave(m->pool + i->a,
+                                     machine_value(m, r, i->b));
+            break;
+        case MACHINE_BLEND:
+            blend_eval(m->pool + i->a, machine_value(m, r, i->b),
+                       r + i->dst);
+            break;
+        case MACHINE_CHOOSE:
+            blend_choose(m->pool + i->a, machine_value(m, r, i->b),
+                         r + i->dst);
+            break;
+        case MACHINE_FIND:
+            blend_find(m->pool + i->a, machine_value(m, r, i->b),
+                       r + i->dst);
+            break;
+        case MACHINE_CALL_ENTRY:
+            if (--fuel < 0)
+                goto dry;
+            back[depth] = i;
+            base[depth++] = (int32_t)(r - registers);
+            i = m->code + machine_entry(m, i, r) - 1;
+            r += back[depth - 1]->dst;
+            break;
+        case MACHINE_MIX:
+            machine_mix(r + i->a, machine_value(m, r, i->b), i->c,
+                        r + i->dst);
+            break;
+        case MACHINE_COPY:
+            for (int k = 0; k < i->c; k++)
+                r[i->dst + k] = r[i->a + k];
             break;
         case MACHINE_GRAY:
             r[i->dst] = REAL(0.297) * r[i->dst] + REAL(0.589) * r[i->dst + 1]

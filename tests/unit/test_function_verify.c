@@ -68,6 +68,22 @@ static void test_instructions(void **state)
         {false, {MACHINE_INTERNAL, 3, -1, 57, 0}},
         {false, {MACHINE_TRANSFORM, 0, 0, 0, 0}}, /* the pool is shorter */
         {false, {MACHINE_GRAY, 2, 0, 0, 0}},
+        {true, {MACHINE_COPY, 2, 0, 0, 2}},
+        {false, {MACHINE_COPY, 3, 0, 0, 2}},
+        {false, {MACHINE_COPY, 2, 3, 0, 2}},
+        {false, {MACHINE_COPY, 2, 0, 0, 0}},
+        {true, {MACHINE_MIX, 0, 0, 0, 2}},
+        {false, {MACHINE_MIX, 0, 0, 0, 3}},
+        {true, {MACHINE_PATTERN, 0, 0, 0, PATTERN_ONION}},
+        {false, {MACHINE_PATTERN, 2, 0, 0, PATTERN_ONION}},
+        {false, {MACHINE_PATTERN, 0, 0, 0, PATTERN_GRADIENT}},
+        {false, {MACHINE_PATTERN, 0, 0, 0, 1000}},
+        {false, {MACHINE_WARP, 0, 0, 0, WARP_PLANAR}},
+        {false, {MACHINE_WARP, 0, 0, 0, -1}},
+        {false, {MACHINE_WAVE, 0, 0, 0, 0}},
+        {false, {MACHINE_BLEND, 0, 0, 0, 0}},
+        {false, {MACHINE_CALL_ENTRY, 0, 0, 0, 0}},
+        {false, {MACHINE_SPLINE, 0, 0, 0, -1}},
     };
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         machine_instruction code[2] = {rows[k].i, {MACHINE_RETURN, 0, 0, 1, 0}};
