@@ -7,6 +7,7 @@
 #include "lib/memory.h"
 #include "lib/mesh.h"
 #include "parser/builder.h"
+#include "parser/eval.h"
 #include "parser/report.h"
 
 static const struct statement *const statements[BUILD_KINDS] = {
@@ -166,10 +167,20 @@ static bool is_within(const struct statement *statement, enum build_kind kind)
 {
     const enum build_kind *within = statement->within;
 
+    if (statement->in_objects)
+        return statements[kind]->makes == VALUE_OBJECT ||
+               statements[kind]->makes == VALUE_LIGHT;
+
     for (; within && *within != BUILD_KINDS; within++)
         if (*within == kind)
             return true;
     return false;
+}
+
+/* Whether it stands inside of others only. */
+static bool is_inner(const struct statement *statement)
+{
+    return statement->within || statement->in_objects;
 }
 
 static bool has_room(const struct frame *frame, enum value_kind kind)
@@ -193,7 +204,7 @@ static enum build_kind kind_of(const char *word, const struct frame *around)
             continue;
         if (around && is_within(statements[i], around->kind))
             return kind;
-        if (!statements[i]->within || found == BUILD_KINDS)
+        if (!is_inner(statements[i]) || found == BUILD_KINDS)
             found = kind;
     }
     return found;
@@ -213,7 +224,7 @@ static void misplaced_statement(struct parser *parser,
              report_line(parser, around->at));
     /* A statement that begins a line goes on from there. */
     parser->brace_missing = report_begins_line(parser, at);
-    parser_fail(parser, BRUME_ERR_SCENE, at, statement->within ? NULL : hint,
+    parser_fail(parser, BRUME_ERR_SCENE, at, is_inner(statement) ? NULL : hint,
                 "'%s' has no place in '%s'", statement->word, word);
 }
 
@@ -231,14 +242,16 @@ static bool may_open(struct parser *parser, enum build_kind kind,
     const struct statement *statement = statements[kind];
     if (around && !value) {
         if (is_within(statement, around->kind) ||
-            (!statement->within && has_room(around, statement->makes)))
+            (!is_inner(statement) && has_room(around, statement->makes)))
             return true;
         misplaced_statement(parser, around, statement, at);
         return false;
     }
-    if (statement->within)
+    if (is_inner(statement))
         return parser_error(parser, at, "'%s' belongs into '%s'", word,
-                            statements[*statement->within]->word);
+                            statement->in_objects
+                                ? "object"
+                                : statements[*statement->within]->word);
     return !value || statement->makes != VALUE_NONE ||
            parser_error(parser, at, "'%s' cannot be declared", word);
 }
@@ -596,6 +609,16 @@ void build_argument(struct parser *parser, const struct value *value,
 
 /* ---- values ------------------------------------------------------------- */
 
+void build_called(struct parser *parser, const struct name *word, int count,
+                  struct location at)
+{
+    const struct value *value = eval_pop(parser, count);
+
+    build_word(parser, word, at);
+    for (int i = 0; i < count && !parser->failed; i++)
+        build_argument(parser, &value[i], at);
+}
+
 /* Values that a statement around copies; it refers to others. */
 static bool is_copied(enum value_kind kind)
 {
@@ -683,6 +706,7 @@ bool build_begin(struct parser *parser)
 void build_reset(struct parser *parser)
 {
     parser->builder->frames = 0;
+    parser->builder->numbers = 0;
     parser->builder->fresh = NULL;
 }
 
@@ -696,6 +720,8 @@ void build_release(struct parser *parser)
         mesh_free(m->mesh);
     for (int i = 0; i < 3; i++)
         free(builder->indices[i].item);
+    free(builder->number);
+    free(builder->part);
     free(builder->frame);
     free(builder->placing);
     parser->builder = NULL;

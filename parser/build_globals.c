@@ -160,6 +160,7 @@ bool build_finish(struct parser *parser)
     camera = parser->builder->camera;
     if (!camera)
         camera = &model_default_camera;
+
     if (finish_globals(parser, &err) && finish_camera(parser, &err))
         return true;
     return parser_relay(parser, camera->at, &err);

@@ -1,6 +1,7 @@
-/* build_object.c - shapes, unions and object{}: what they are and wear. */
+/* build_object.c - what all objects have, and the simple shapes. */
 #include <string.h>
 
+#include "lib/memory.h"
 #include "parser/builder.h"
 
 #define POINT(word, member)                                                    \
@@ -11,23 +12,18 @@
 /* ---- modifiers that all objects have ----------------------------------- */
 
 const struct param build_object_params[] = {BUILD_OBJECT_ROWS, {0}};
-static const struct param tube_params[] = {
-    BUILD_OBJECT_ROWS,
-    PARAM_WORD("open", PARAM_SWITCH, 1, 0, struct object, shape.open),
-    {0}};
 
 void build_object_set(struct parser *parser, struct frame *frame,
                       const struct param *row, struct location at)
 {
     struct object *object = frame->node;
 
+    (void)parser;
+    (void)at;
     if (row->given & OBJECT_HOLLOW)
         object->says_hollow = true;
-    if (strcmp(row->word, "inverse"))
-        return;
-    if (object->kind == OBJECT_UNION)
-        parser_error(parser, at, "'inverse' of a union is not supported yet");
-    object->inverse = !object->inverse;
+    if (row->given & OBJECT_INVERSE)
+        object->inverse = !object->inverse;
 }
 
 const struct object *build_object_of(const struct frame *frame)
@@ -95,46 +91,75 @@ struct object *build_object_start(struct frame *frame, enum object_kind kind,
     object->shape.kind = shape;
     object->by = object->texture.by = object->inner.by = object->interior.by =
         transform_identity();
-    object->shadow = true;
     return object;
 }
 
-/* ---- shapes ------------------------------------------------------------ */
+/* ---- numbers of long lists --------------------------------------------- */
 
-static void open_sphere(struct parser *parser, struct frame *frame)
+bool build_number(struct parser *parser, double number, struct location at)
 {
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_SPHERE, "sphere");
+    struct builder *builder = parser->builder;
+    struct brume_error err = {0};
+    double *grown = memory_grow(builder->number, &builder->number_room,
+                                builder->numbers + 1, sizeof *grown, &err);
+
+    if (!grown)
+        return parser_relay(parser, at, &err);
+    builder->number = grown;
+    grown[builder->numbers++] = number;
+    return true;
 }
 
-static void open_box(struct parser *parser, struct frame *frame)
+bool build_take_numbers(struct parser *parser, struct frame *frame,
+                        struct object *object)
 {
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_BOX, "box");
+    struct builder *builder = parser->builder;
+    size_t count = builder->numbers - frame->mark;
+    double *data = parser_array(parser, count, sizeof *data);
+
+    if (!data)
+        return false;
+    if (count > 0)
+        memcpy(data, builder->number + frame->mark, count * sizeof *data);
+    builder->numbers = frame->mark;
+    object->shape.data = data;
+    object->shape.count = count;
+    return true;
 }
 
-static void open_cylinder(struct parser *parser, struct frame *frame)
-{
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_CYLINDER, "cylinder");
-}
+/* ---- simple shapes ----------------------------------------------------- */
 
-static void open_cone(struct parser *parser, struct frame *frame)
+void build_shape_open(struct parser *parser, struct frame *frame)
 {
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_CONE, "cone");
-}
+    static const int kinds[BUILD_KINDS] = {
+        [BUILD_SPHERE] = BRUME_SHAPE_SPHERE,
+        [BUILD_BOX] = BRUME_SHAPE_BOX,
+        [BUILD_CYLINDER] = BRUME_SHAPE_CYLINDER,
+        [BUILD_CONE] = BRUME_SHAPE_CONE,
+        [BUILD_PLANE] = BRUME_SHAPE_PLANE,
+        [BUILD_DISC] = BRUME_SHAPE_DISC,
+        [BUILD_TORUS] = BRUME_SHAPE_TORUS,
+        [BUILD_QUADRIC] = BRUME_SHAPE_QUADRIC,
+        [BUILD_CUBIC] = BRUME_SHAPE_POLY,
+        [BUILD_QUARTIC] = BRUME_SHAPE_POLY,
+        [BUILD_POLY] = BRUME_SHAPE_POLY,
+        [BUILD_SUPERELLIPSOID] = BRUME_SHAPE_SUPERELLIPSOID,
+        [BUILD_JULIA_FRACTAL] = BRUME_SHAPE_JULIA,
+        [BUILD_LATHE] = BRUME_SHAPE_LATHE,
+        [BUILD_PRISM] = BRUME_SHAPE_PRISM,
+        [BUILD_SOR] = BRUME_SHAPE_SOR,
+        [BUILD_SPHERE_SWEEP] = BRUME_SHAPE_SPHERE_SWEEP,
+        [BUILD_POLYGON] = BRUME_SHAPE_POLYGON,
+        [BUILD_BICUBIC_PATCH] = BRUME_SHAPE_BICUBIC_PATCH,
+        [BUILD_BLOB] = BRUME_SHAPE_BLOB,
+        [BUILD_ISOSURFACE] = BRUME_SHAPE_ISOSURFACE,
+        [BUILD_PARAMETRIC] = BRUME_SHAPE_PARAMETRIC,
+        [BUILD_HEIGHT_FIELD] = BRUME_SHAPE_HEIGHT_FIELD};
 
-static void open_plane(struct parser *parser, struct frame *frame)
-{
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_PLANE, "plane");
-}
-
-static void open_disc(struct parser *parser, struct frame *frame)
-{
-    (void)parser;
-    build_object_start(frame, OBJECT_SHAPE, BRUME_SHAPE_DISC, "disc");
+    build_object_start(frame, OBJECT_SHAPE,
+                       (enum brume_shape_kind)kinds[frame->kind],
+                       build_statement_of(frame)->word);
+    frame->mark = parser->builder->numbers;
 }
 
 static const struct param sphere_arguments[] = {
@@ -157,6 +182,13 @@ static const struct param disc_arguments[] = {POINT("center", a),
                                               LENGTH("radius", radius),
                                               LENGTH("hole radius", radius_b),
                                               {0}};
+static const struct param torus_arguments[] = {
+    LENGTH("major radius", radius), LENGTH("minor radius", radius_b), {0}};
+
+static const struct param tube_params[] = {
+    BUILD_OBJECT_ROWS,
+    PARAM_WORD("open", PARAM_SWITCH, 1, 0, struct object, shape.open),
+    {0}};
 
 /* Corners may be named in any order, radii may be negative, as in POV-Ray. */
 static void close_shape(struct parser *parser, struct frame *frame,
@@ -187,7 +219,7 @@ static void close_shape(struct parser *parser, struct frame *frame,
         .params = table,                                                       \
         .arguments = name##_arguments,                                         \
         .needed = count,                                                       \
-        .open = open_##name,                                                   \
+        .open = build_shape_open,                                              \
         .apply = build_object_apply,                                           \
         .move = build_object_move,                                             \
         .close = close_shape,                                                  \
@@ -200,148 +232,39 @@ SHAPE_STATEMENT(cylinder, 3, tube_params);
 SHAPE_STATEMENT(cone, 4, tube_params);
 SHAPE_STATEMENT(plane, 2, build_object_params);
 SHAPE_STATEMENT(disc, 3, build_object_params);
+SHAPE_STATEMENT(torus, 2, build_object_params);
 
-/* ---- union ------------------------------------------------------------- */
+/* ---- what objects say of photons and radiosity: POV-Ray's own ways ----- */
 
-static void open_union(struct parser *parser, struct frame *frame)
+static const char own_light[] = "Brume finds indirect light in its own way";
+
+static const struct param photons_params[] = {
+    PARAM_WITHOUT("target", own_light),
+    PARAM_WITHOUT("reflection", own_light),
+    PARAM_WITHOUT("refraction", own_light),
+    PARAM_WITHOUT("collect", own_light),
+    PARAM_WITHOUT("pass_through", own_light),
+    PARAM_WITHOUT("area_light", own_light),
+    {0}};
+static const struct param radiosity_params[] = {
+    PARAM_WITHOUT("importance", own_light), {0}};
+
+/* They belong into whatever makes an object or a light. */
+static void open_aside(struct parser *parser, struct frame *frame)
 {
-    (void)parser;
-    build_object_start(frame, OBJECT_UNION, BRUME_SHAPE_SPHERE, "union");
+    frame->node = build_around(parser)->node;
 }
 
-static void apply_union(struct parser *parser, struct frame *frame,
-                        const struct value *value, struct location at)
-{
-    struct object *object = frame->node;
-
-    if (value->kind != VALUE_OBJECT && value->kind != VALUE_LIGHT) {
-        build_object_apply(parser, frame, value, at);
-        return;
-    }
-    struct child *child = parser_alloc(parser, sizeof *child);
-    if (!child)
-        return;
-    child->object = value->node;
-    if (object->last)
-        object->last->next = child;
-    else
-        object->first = child;
-    object->last = child;
-}
-
-static void close_union(struct parser *parser, struct frame *frame,
-                        struct location at)
-{
-    const struct object *object = frame->node;
-
-    (void)at;
-    if (!object->first)
-        parser_warn(parser, frame->at, "this union is empty");
-}
-
-const struct statement build_statement_union = {
-    .word = "union",
-    .makes = VALUE_OBJECT,
-    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT) |
-             BUILD_TAKES(VALUE_LIGHT),
-    .size = sizeof(struct object),
-    .params = build_object_params,
-    .open = open_union,
-    .apply = apply_union,
-    .move = build_object_move,
-    .close = close_union,
-    .set = build_object_set,
+const struct statement build_statement_object_photons = {
+    .word = "photons",
+    .in_objects = true,
+    .params = photons_params,
+    .open = open_aside,
 };
 
-/* ---- object { IDENTIFIER ... } ----------------------------------------- */
-
-/* Until it is given an object it is an empty union. */
-static void open_object(struct parser *parser, struct frame *frame)
-{
-    (void)parser;
-    build_object_start(frame, OBJECT_UNION, BRUME_SHAPE_SPHERE, "object");
-}
-
-static void apply_object(struct parser *parser, struct frame *frame,
-                         const struct value *value, struct location at)
-{
-    struct object *object = frame->node;
-
-    if (value->kind != VALUE_OBJECT && value->kind != VALUE_LIGHT) {
-        build_object_apply(parser, frame, value, at);
-        return;
-    }
-    if (frame->given & OBJECT_NAMED)
-        parser_error(parser, at, "'object' takes one object; use 'union'");
-    frame->given |= OBJECT_NAMED;
-    *object = *(const struct object *)value->node;
-    object->texture.owned = false;
-    object->at = frame->at;
-}
-
-static void close_object(struct parser *parser, struct frame *frame,
-                         struct location at)
-{
-    if (!(frame->given & OBJECT_NAMED))
-        parser_error(parser, at, "'object' needs an object before this");
-}
-
-const struct statement build_statement_object = {
-    .word = "object",
-    .makes = VALUE_OBJECT,
-    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT) |
-             BUILD_TAKES(VALUE_LIGHT),
-    .size = sizeof(struct object),
-    .params = build_object_params,
-    .open = open_object,
-    .apply = apply_object,
-    .move = build_object_move,
-    .close = close_object,
-    .set = build_object_set,
+const struct statement build_statement_object_radiosity = {
+    .word = "radiosity",
+    .in_objects = true,
+    .params = radiosity_params,
+    .open = open_aside,
 };
-
-/* ---- what functions ask of values -------------------------------------- */
-
-struct value build_spline_value(struct parser *parser,
-                                const struct value *spline, int count,
-                                const struct name *type, struct location at)
-{
-    (void)spline;
-    (void)count;
-    (void)type;
-    parser_mistake(parser, at, "splines are not supported yet");
-    return value_float(0);
-}
-
-struct value build_object_value(struct parser *parser,
-                                const struct name *function,
-                                const struct value *object,
-                                const struct value *point, struct location at)
-{
-    (void)object;
-    (void)point;
-    parser_mistake(parser, at, "'%s' is not supported yet", function->text);
-    return value_float(0);
-}
-
-struct value build_trace(struct parser *parser, const struct value *object,
-                         const struct value *from,
-                         const struct value *direction,
-                         const struct name *normal, struct location at)
-{
-    (void)object;
-    (void)from;
-    (void)direction;
-    (void)normal;
-    parser_mistake(parser, at, "'trace' is not supported yet");
-    return value_float(0);
-}
-
-int build_function(struct parser *parser, const struct value *value,
-                   struct location at, struct brume_error *err)
-{
-    (void)err;
-    parser_mistake(parser, at, "a function of a %s is not supported yet",
-                   value_name(value));
-    return -1;
-}

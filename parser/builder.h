@@ -14,7 +14,21 @@
     X(TRIANGLE, triangle) X(SMOOTH_TRIANGLE, smooth_triangle)                 \
     X(SPHERE, sphere) X(BOX, box) X(CYLINDER, cylinder) X(CONE, cone)         \
     X(PLANE, plane) X(DISC, disc) X(MESH, mesh) X(MESH2, mesh2)               \
-    X(UNION, union) X(OBJECT, object)                                         \
+    X(TORUS, torus) X(QUADRIC, quadric) X(CUBIC, cubic) X(QUARTIC, quartic)   \
+    X(POLY, poly) X(SUPERELLIPSOID, superellipsoid)                           \
+    X(JULIA_FRACTAL, julia_fractal)                                           \
+    X(LATHE, lathe) X(PRISM, prism) X(SOR, sor)                               \
+    X(SPHERE_SWEEP, sphere_sweep) X(POLYGON, polygon)                         \
+    X(BICUBIC_PATCH, bicubic_patch)                                           \
+    X(BLOB, blob) X(BLOB_SPHERE, blob_sphere) X(BLOB_CYLINDER, blob_cylinder) \
+    X(ISOSURFACE, isosurface) X(PARAMETRIC, parametric)                       \
+    X(HEIGHT_FIELD, height_field) X(CONTAINED_BY, contained_by)               \
+    X(UNION, union) X(MERGE, merge) X(INTERSECTION, intersection)             \
+    X(DIFFERENCE, difference) X(OBJECT, object)                               \
+    X(CLIPPED_BY, clipped_by) X(BOUNDED_BY, bounded_by)                       \
+    X(LIGHT_GROUP, light_group)                                               \
+    X(OBJECT_PHOTONS, object_photons)                                         \
+    X(OBJECT_RADIOSITY, object_radiosity)                                     \
     X(VERTEX_VECTORS, vertex_vectors) X(NORMAL_VECTORS, normal_vectors)       \
     X(UV_VECTORS, uv_vectors) X(FACE_INDICES, face_indices)                   \
     X(NORMAL_INDICES, normal_indices) X(UV_INDICES, uv_indices)               \
@@ -58,6 +72,7 @@ struct frame {
     int values;                 /* of them so far, in builder.value        */
     double position;            /* of an entry in its map                  */
     const struct param *open;   /* a word that another one belongs to      */
+    size_t mark;                /* the first of its own builder.number     */
 };
 
 /* Rows that several statements share, and where what they set lies: in the
@@ -90,6 +105,7 @@ struct statement {
     /* Statements that this one belongs into, ending with BUILD_KINDS; NULL:
      * it stands on its own, or where a value of its kind can. */
     const enum build_kind *within;
+    bool in_objects;            /* it belongs into any object or light     */
     size_t size;                /* of the node; 0: it shares the one around */
     const struct param *params;
     const struct param_group *groups;
@@ -120,7 +136,7 @@ BUILD_STATEMENTS(X)
 #undef X
 
 /* Bits of frame.given with a meaning beyond their file. */
-enum { OBJECT_HOLLOW = 1, OBJECT_NAMED = 2 };
+enum { OBJECT_HOLLOW = 1, OBJECT_NAMED = 2, OBJECT_INVERSE = 4 };
 /* Of statements with patterns: their pattern is their own copy; it was chosen
  * here; they have a list of their own; they have a colour of their own; as an
  * entry of a map they have a position. */
@@ -131,10 +147,23 @@ enum { FRAME_PATTERN = 1 << 16, FRAME_CHOSEN = 1 << 17, FRAME_LIST = 1 << 18,
 #define BUILD_OBJECT_ROWS                                                     \
     PARAM_WORD("hollow", PARAM_SWITCH, 1, OBJECT_HOLLOW, struct object,       \
                hollow),                                                       \
-    PARAM_WORD("no_shadow", PARAM_CLEAR, 0, 0, struct object, shadow),        \
-    PARAM_WITHOUT("inverse", NULL),                                           \
+    PARAM_WORD("no_shadow", PARAM_SWITCH, 1, 0, struct object, no_shadow),    \
+    PARAM_WORD("no_image", PARAM_SWITCH, 1, 0, struct object, no_image),      \
+    PARAM_WORD("no_reflection", PARAM_SWITCH, 1, 0, struct object,            \
+               no_reflection),                                                \
+    PARAM_WORD("no_radiosity", PARAM_SWITCH, 1, 0, struct object,             \
+               no_radiosity),                                                 \
+    PARAM_WORD("double_illuminate", PARAM_SWITCH, 1, 0, struct object,        \
+               double_illuminate),                                            \
+    {.word = "inverse", .kind = PARAM_IGNORED, .given = OBJECT_INVERSE},      \
     PARAM_WITHOUT("sturm", "Brume solves in one way"),                        \
-    PARAM_WITHOUT("split_union", "it is for photons, which are to come")
+    PARAM_WITHOUT("hierarchy", "Brume builds its own hierarchies")
+/* Of those that hold others. */
+#define BUILD_GROUP_ROWS                                                      \
+    BUILD_OBJECT_ROWS,                                                        \
+    PARAM_WITHOUT("split_union", "it is for photons, which are to come"),     \
+    PARAM_WORD("cutaway_textures", PARAM_SWITCH, 1, 0, struct object,         \
+               cutaway)
 
 extern const struct param build_camera_params[], build_light_params[],
     build_object_params[], build_mesh_params[], build_finish_params[],
@@ -161,7 +190,7 @@ struct index_list {
     size_t count, room;
 };
 
-enum { BUILD_NOTES = 16, BUILD_LACKS = 24 };
+enum { BUILD_NOTES = 16, BUILD_LACKS = 32 };
 
 /* A node that nothing refers to any more. */
 struct spare {
@@ -190,8 +219,13 @@ struct builder {
                                        uvs                                 */
     int64_t announced, listed;      /* items of its open list              */
     struct intern intern[4];        /* what core has: see build_place.c    */
-    struct placing *placing;        /* the unions being placed             */
+    double *number;                 /* of long lists that are being read   */
+    size_t numbers, number_room;
+    struct placing *placing;        /* the objects being placed            */
     size_t placing_room;
+    bool querying;                  /* what is placed is for a query       */
+    int *part;                      /* of composites being placed          */
+    size_t parts, part_room;
     struct loader loader;
     const char *note[BUILD_NOTES];  /* given already                       */
     int notes;
@@ -213,6 +247,12 @@ void build_give_up(struct parser *parser, enum value_kind kind, void *node);
 /* Reports that a value of that kind has no place in the open statement. */
 void build_misplaced(struct parser *parser, const struct frame *frame,
                      const struct value *value, struct location at);
+
+/* Adds to the numbers of the innermost statement. False: reported. */
+bool build_number(struct parser *parser, double number, struct location at);
+/* Moves them to the parse arena, as data of its shape. */
+bool build_take_numbers(struct parser *parser, struct frame *frame,
+                        struct object *object);
 
 /* The object that a frame makes, or NULL if it makes something else. */
 const struct object *build_object_of(const struct frame *frame);
@@ -281,6 +321,14 @@ void build_lacks_of(struct parser *parser, const struct object *object,
                     const struct interior *interior);
 /* One warning of all of it. */
 void build_report_lacks(struct parser *parser);
+
+/* A shape whose kind its frame's tells. */
+void build_shape_open(struct parser *parser, struct frame *frame);
+
+/* The object as a shape of core that is seen nowhere, for queries; -1:
+ * reported. */
+int build_place_query(struct parser *parser, const struct object *object,
+                      struct location at);
 
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,

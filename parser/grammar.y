@@ -105,7 +105,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 
 /* Every word of a statement: what it may hold, and where, is in the builder's
  * tables. */
-%token <name> WORD "keyword" TEXTURE "'texture'"
+%token <name> WORD "keyword" CALLED "'pwr'" TEXTURE "'texture'"
 
 /* An operand ends only where no operator follows: LOW is below them all. */
 %precedence LOW
@@ -503,6 +503,8 @@ content:
         { build_argument(parser, &$1, @1); }
   | WORD
         { build_word(parser, $1, @1); }
+  | CALLED '(' arguments ')'
+        { build_called(parser, $1, $3, @1); }
   | node
         { build_apply(parser, &$1, @1); }
   | texture

@@ -351,7 +351,7 @@ const struct keyword keyword_table[] = {
     {"prod", TOK_SERIES, KEYWORD_RESERVED},
     {"progressive", TOK_WORD, KEYWORD_EXTENSION},
     {"projected_through", TOK_WORD, KEYWORD_RESERVED},
-    {"pwr", TOK_WORD, KEYWORD_RESERVED},
+    {"pwr", TOK_CALLED, KEYWORD_RESERVED},
     {"quadratic_spline", TOK_WORD, KEYWORD_RESERVED},
     {"quadric", TOK_WORD, KEYWORD_RESERVED},
     {"quartic", TOK_WORD, KEYWORD_RESERVED},

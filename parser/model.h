@@ -99,7 +99,14 @@ struct model_mesh {
     struct model_mesh *next;        /* of all meshes of the scene          */
 };
 
-enum object_kind { OBJECT_SHAPE, OBJECT_MESH, OBJECT_UNION, OBJECT_LIGHT };
+/* OBJECT_GROUP: shape.kind tells how the members make one. */
+enum object_kind { OBJECT_SHAPE, OBJECT_MESH, OBJECT_GROUP, OBJECT_LIGHT };
+
+struct child;
+
+struct members {
+    struct child *first, *last;
+};
 
 struct object {
     enum object_kind kind;
@@ -109,16 +116,26 @@ struct object {
     struct model_mesh *mesh;
     double inside[3];               /* inside_vector of a mesh; 0: none    */
     struct brume_light light;
-    struct child *first, *last;     /* of a union                          */
+    struct members members;         /* of a group                          */
+    struct members clips, bounds;   /* clipped_by, bounded_by              */
     transform by;                   /* all maps of this statement          */
     struct placed_texture texture, inner;   /* inner: interior_texture     */
     struct placed_interior interior;
     bool hollow, says_hollow;       /* else as the union it is in          */
-    bool inverse, shadow;
+    bool inverse;
+    bool no_shadow, no_image, no_reflection, no_radiosity, double_illuminate;
+    bool cutaway;                   /* cutaway_textures                    */
+    bool global_lights;             /* of a light_group                    */
+    uint32_t points, listed;        /* announced and read, of long lists   */
+    const char *lacks;              /* what no picture shows of it; or NULL */
+    int query;                      /* its shape in core for queries, plus 1;
+                                       0: none yet                         */
 };
 
 struct child {
     const struct object *object;
+    const transform *before;        /* undoes the group's maps that were there
+                                       before it; NULL: none were          */
     struct child *next;
 };
 

@@ -28,7 +28,14 @@ struct fake_interior {
     int media[BRUME_MAX_INTERIOR_MEDIA], count;
 };
 
+/* Copies of what a shape points at, the first of them. */
+struct fake_lists {
+    int parts[FAKE_ROOM], clips[FAKE_ROOM];
+    double data[FAKE_ROOM];
+};
+
 struct brume_scene {
+    struct fake_lists list[FAKE_ROOM];      /* of the shapes */
     struct brume_camera camera;
     struct brume_globals globals;
     int cameras, global_settings, atmosphere;
@@ -115,6 +122,15 @@ int brume_add_material(brume_scene *scene,
 int brume_add_shape(brume_scene *scene, const struct brume_shape *shape,
                     struct brume_error *err)
 {
+    if (scene->shapes < FAKE_ROOM) {
+        struct fake_lists *list = &scene->list[scene->shapes];
+        for (size_t i = 0; i < shape->part_count && i < FAKE_ROOM; i++)
+            list->parts[i] = shape->parts[i];
+        for (size_t i = 0; i < shape->clip_count && i < FAKE_ROOM; i++)
+            list->clips[i] = shape->clips[i];
+        for (size_t i = 0; i < shape->count && i < FAKE_ROOM; i++)
+            list->data[i] = shape->data[i];
+    }
     FAKE_ADD(shape, shapes, *shape, "shape");
 }
 

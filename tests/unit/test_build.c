@@ -112,8 +112,6 @@ static void shapes_that_are_wrong(void **state)
     expect_error("sphere { 0, x }", BRUME_ERR_SCENE, 1, 13, "a float");
     expect_error("sphere { 0, 1 open }", BRUME_ERR_SCENE, 1, 15,
                  "'open' has no place in 'sphere'");
-    expect_error("union { sphere { 0, 1 } inverse }", BRUME_ERR_SCENE, 1, 25,
-                 "not supported yet");
     expect_error("object { }", BRUME_ERR_SCENE, 1, 10, "needs an object");
     expect_error("sphere { 0, 1 matrix <1, 2, 3> }", BRUME_ERR_SCENE, 1, 22,
                  "12 numbers");

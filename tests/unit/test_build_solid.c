@@ -1,0 +1,172 @@
+/* test_build_solid.c - shapes by numbers and groups of objects, as text. */
+#include "tests/unit/scene_text.h"
+
+static void quadrics(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "torus { 2, -.5 }\n"
+        "quadric { <1,2,3>, <4,5,6>, <7,8,9>, 10 }\n"
+        "poly { 2, <1,2,3,4,5,6,7,8,9,10> sturm }\n"
+        "cubic { <1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20> }\n"
+        "superellipsoid { <.25, .5> }\n");
+    assert_int_equal(s->shapes, 5);
+    assert_int_equal(s->shape[0].kind, BRUME_SHAPE_TORUS);
+    NUMBERS(&s->shape[0].radius, 2, .5);
+    assert_int_equal(s->shape[1].kind, BRUME_SHAPE_QUADRIC);
+    NUMBERS(s->list[1].data, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10);
+    assert_int_equal(s->shape[2].order, 2);
+    assert_int_equal(s->shape[2].count, 10);
+    assert_int_equal(s->shape[3].order, 3);
+    assert_int_equal(s->shape[3].count, 20);
+    NUMBERS(s->shape[4].a, .25, .5);
+    expect_error("poly { 2, <1,2,3> }", BRUME_ERR_SCENE, 1, 11,
+                 "a vector of 10 terms here, not 3");
+    expect_error("poly { 36, <1,2,3> }", BRUME_ERR_SCENE, 1, 8, "2 to 35");
+    expect_error("quadric { <1,2,3>, <1,2,3>, <1,2,3> }", BRUME_ERR_SCENE, 1,
+                 37, "needs its constant");
+    expect_error("quartic { 5 }", BRUME_ERR_SCENE, 1, 11, "35 terms");
+}
+
+static void fractals(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "julia_fractal { <1,2,3,4> hypercomplex pwr(5, 6) max_iteration 9\n"
+        "  precision 30 slice <0,1,0,0>, 7 }\n"
+        "julia_fractal { <1,2,3,4> cube }\n");
+    assert_int_equal(s->shape[0].julia_kind, BRUME_JULIA_HYPERCOMPLEX);
+    assert_int_equal(s->shape[0].julia_function, BRUME_JULIA_PWR);
+    assert_int_equal(s->shape[0].order, 9);
+    NUMBERS(&s->shape[0].accuracy, 30);
+    NUMBERS(s->list[0].data, 1, 2, 3, 4, 0, 1, 0, 0, 7, 5, 6);
+    assert_int_equal(s->shape[1].julia_function, BRUME_JULIA_CUBE);
+    NUMBERS(s->list[1].data, 1, 2, 3, 4, 0, 0, 0, 1, 0, 0, 0);
+    assert_int_equal(s->shape[1].order, 20);
+}
+
+static void curves(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "lathe { bezier_spline 4, <1,2>, <3,4>, <5,6>, <7,8> }\n"
+        "prism { conic_sweep linear_spline 1, 2, 3 <1,2> <3,4> <1,2> open }\n"
+        "sor { 4, <1,2> <3,4> <5,6> <7,8> }\n"
+        "sphere_sweep { b_spline 2, <1,2,3>, 4, <5,6,7>, 8 tolerance .1 }\n"
+        "polygon { 3, <1,2>, <3,4,5>, <1,2> }\n"
+        "bicubic_patch { type 1 u_steps 2 v_steps 3 flatness .5\n"
+        "  0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, <15,16,17> }\n");
+    assert_int_equal(s->shape[0].curve, BRUME_CURVE_BEZIER);
+    NUMBERS(s->list[0].data, 1, 2, 3, 4, 5, 6, 7, 8);
+    assert_true(s->shape[1].conic && s->shape[1].open);
+    NUMBERS(&s->shape[1].radius, 1, 2);
+    NUMBERS(s->list[1].data, 1, 2, 3, 4, 1, 2);
+    assert_int_equal(s->shape[2].count, 8);
+    assert_int_equal(s->shape[3].curve, BRUME_CURVE_B_SPLINE);
+    NUMBERS(&s->shape[3].accuracy, .1);
+    NUMBERS(s->list[3].data, 1, 2, 3, 4, 5, 6, 7, 8);
+    NUMBERS(s->list[4].data, 1, 2, 0, 3, 4, 5, 1, 2, 0);
+    assert_int_equal(s->shape[5].count, 48);
+    assert_int_equal(s->shape[5].steps[1], 3);
+    NUMBERS(s->list[5].data + 45, 15, 16, 17);
+    expect_error("lathe { 3, <1,2>, <3,4> }", BRUME_ERR_SCENE, 1, 25,
+                 "announces 3 points but has 2");
+    expect_error("sphere_sweep { linear_spline 2, <1,2,3>, 4, <5,6,7> }",
+                 BRUME_ERR_SCENE, 1, 53, "no radius");
+    expect_error("lathe { x }", BRUME_ERR_SCENE, 1, 9, "begins with 1 float");
+}
+
+static void blobs(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "blob { threshold .5 sphere { <1,2,3>, 4, strength 5 scale 2 }\n"
+        "  cylinder { <1,2,3>, <4,5,6>, 7, 8 } component 9, 10, <11,12,13> }");
+    const double *d = s->list[0].data;
+    NUMBERS(&s->shape[0].radius, .5);
+    assert_int_equal(s->shape[0].count, 3 * BRUME_BLOB_NUMBERS);
+    NUMBERS(d, 0, 5, 4, 1, 2, 3, 0, 0, 0, 2, 0, 0, 0, 0, 2);
+    d += BRUME_BLOB_NUMBERS;
+    NUMBERS(d, 1, 8, 7, 1, 2, 3, 4, 5, 6, 1, 0, 0, 0, 0, 1);
+    d += BRUME_BLOB_NUMBERS;
+    NUMBERS(d, 0, 9, 10, 11, 12, 13);
+    expect_error("blob { threshold 1 }", BRUME_ERR_SCENE, 1, 20,
+                 "no components");
+}
+
+/* Parts come before the group, placed in the world. */
+static void groups(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "difference { sphere { 0, 1 translate x }\n"
+        "  intersection { box { 0, 1 } sphere { 0, 0 } }\n"
+        "  merge { box { 0, 1 } box { 0, 1 } } scale 2 inverse no_shadow }\n");
+    assert_int_equal(s->shapes, 6);
+    assert_true(s->shape[0].part && s->shape[4].part && !s->shape[5].part);
+    NUMBERS(s->shape[0].transform[0], 2, 0, 0, 2);
+    assert_int_equal(s->shape[4].kind, BRUME_SHAPE_MERGE);
+    assert_int_equal(s->list[4].parts[0], 2);
+    assert_int_equal(s->list[4].parts[1], 3);
+    assert_int_equal(s->shape[5].kind, BRUME_SHAPE_DIFFERENCE);
+    assert_int_equal(s->shape[5].part_count, 2);
+    assert_int_equal(s->list[5].parts[1], 4);
+    assert_true(s->shape[5].inverse && !s->shape[5].shadow);
+    assert_true(s->shape[0].shadow == s->shape[5].shadow);
+    /* Nothing is left of it. */
+    s = scene("difference { sphere { 0, 0 } box { 0, 1 } }");
+    assert_int_equal(s->shapes, 1);
+    assert_true(s->shape[0].part);
+}
+
+/* A clip is where it was written, whatever came before it. */
+static void clips(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "sphere { 0, 1 translate x clipped_by { plane { y, 0 } } scale 2 }\n"
+        "union { box { 0, 1 } bounded_by { box { 0, 3 } }\n"
+        "  clipped_by { bounded_by } translate y sphere { 0, 1 } }\n");
+    assert_int_equal(s->shapes, 6);
+    assert_int_equal(s->shape[0].kind, BRUME_SHAPE_PLANE);
+    NUMBERS(s->shape[0].transform[0], 2, 0, 0, 0);
+    NUMBERS(s->shape[1].transform[0], 2, 0, 0, 2);
+    assert_int_equal(s->shape[1].clip_count, 1);
+    assert_int_equal(s->list[1].clips[0], 0);
+    assert_int_equal(s->shape[5].kind, BRUME_SHAPE_UNION);
+    assert_int_equal(s->shape[5].part_count, 2);
+    assert_int_equal(s->list[5].clips[0], 4);
+    NUMBERS(s->shape[2].transform[1], 0, 1, 0, 1);
+    NUMBERS(s->shape[3].transform[1], 0, 1, 0, 0);
+    expect_error("sphere { 0, 1 clipped_by { } }", BRUME_ERR_SCENE, 1, 28,
+                 "needs an object");
+}
+
+static void what_pictures_lack(void **state)
+{
+    (void)state;
+    expect_warning("#declare O = sphere { 0, 1 no_image }\n"
+                   "light_group { light_source { 0, 1 } object { O } }\n"
+                   "object { O no_reflection }\n",
+                   2, 1,
+                   "not drawn yet: light groups, no_image, "
+                   "no_reflection");
+    scene("#declare O = sphere { 0, 1 no_image }\n sphere { 0, 1 }");
+    assert_null(first_of(DIAG_WARNING));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quadrics),
+        cmocka_unit_test(fractals),
+        cmocka_unit_test(curves),
+        cmocka_unit_test(blobs),
+        cmocka_unit_test(groups),
+        cmocka_unit_test(clips),
+        cmocka_unit_test(what_pictures_lack),
+    };
+
+    return cmocka_run_group_tests_name("build_solid", tests, NULL,
+                                       forget_scene);
+}
