@@ -89,4 +89,12 @@ bool solid_julia(struct arena *arena, enum brume_julia_kind kind,
                  double precision, const double numbers[11],
                  struct solid *solid, struct brume_error *err);
 
+/* Members that BRUME_SHAPE_ISOSURFACE reads, but for its function: `number` is
+ * kept at ISOSURFACE_FUNCTION of the data for who evaluates it. Accuracy and
+ * gradients are above 0; of the adapting gradient's factors the first is the
+ * least gradient, the second 1 or more, the third 0 to 1. */
+bool solid_isosurface(struct arena *arena, const struct brume_shape *shape,
+                      double number, struct solid *solid,
+                      struct brume_error *err);
+
 #endif

@@ -171,6 +171,23 @@ def julia(n):
             f"slice {vector(n[8:12])}, {n[12]} }}")
 
 
+SURFACES = ("x*x + y*y + z*z - 1",
+            "pow(sqrt(x*x + z*z) - 0.7, 2) + y*y - 0.09",
+            "sin(3*x) + sin(3*y) + sin(3*z)",
+            "y + 0.3*sin(4*x)*cos(3*z)")
+
+
+def isosurface(n):
+    a, b = vectors(n[2:8], 3)
+    container = (f"sphere {{ {a}, {n[5]} }}" if n[1] else
+                 f"box {{ {a}, {b} }}")
+    evaluate = "evaluate {}, {}, {}".format(*n[12:]) if n[12:] else ""
+    return (f"isosurface {{ function {{ {SURFACES[n[0]]} }} "
+            f"contained_by {{ {container} }} threshold {n[8]} "
+            f"accuracy {n[9]} max_gradient {n[10]} {evaluate} "
+            f"all_intersections {'open' if n[11] else ''} }}")
+
+
 def off(*points):
     """With the corner in the origin moved away: rays are aimed there."""
     return [round(x - 0.07, 6) for x in points]
@@ -258,6 +275,13 @@ KINDS = {
         *((1, i, 4, 50, round(-0.3 + 0.02 * i, 2), 0.2, -0.4, 0.1,
            0, 0, 0, 1, 0.2, 1.8, 0.3)
           for i in range(18) if i != 1)], 1.2),     # its own cube is another
+    "isosurface": (isosurface, [
+        (0, 0, -1.1, -1.2, -1.1, 1.1, 1.2, 1.1, 0, 1e-5, 5, 0),
+        (0, 0, -0.9, -0.8, -1.1, 0.7, 0.9, 1.1, 0.1, 1e-5, 5, 0),
+        (1, 0, -1.1, -0.5, -1.1, 1.1, 0.4, 1, 0, 1e-5, 5, 0),
+        (2, 0, -1, -1, -1, 1, 1, 1, 0.2, 1e-5, 6, 0),
+        (2, 0, -1, -1, -1, 1, 1, 1, 0.2, 1e-5, 6, 0, 5.5, 1.3, 0.9),
+        (3, 1, 0.1, 0, 0, 1.2, 0, 0, 0, 1e-5, 2, 0)], 1.2),
     "ovus": (ovus, [
         (1, 0.5), (1, 1), (1, 0), (1, 1.7), (1, 2.5), (0.8, 0.1)], 1.5),
 }

@@ -4,6 +4,7 @@
 #define TESTS_SOLIDS_H
 #include "core/brume.h"
 #include "core/physics/solid_blob.h"
+#include "core/physics/solid_isosurface.h"
 #include "core/physics/solid_julia.h"
 #include "core/physics/solid_lathe.h"
 #include "core/physics/solid_ovus.h"
@@ -15,6 +16,7 @@
 #include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 #include "core/solid.h"
+#include <string.h>
 
 struct solid_kind {
     const char *name;
@@ -107,6 +109,72 @@ SOLID_BUILD(julia)
                        solid, err);
 }
 
+/* Those of oracle/solids.py. */
+static inline double isosurface_function(const double *data, dvec3 p)
+{
+    double x = p.x, y = p.y, z = p.z, rho = sqrt(x * x + z * z) - 0.7;
+
+    switch ((int)data[ISOSURFACE_FUNCTION]) {
+    case 0:
+        return x * x + y * y + z * z - 1;
+    case 1:
+        return rho * rho + y * y - 0.09;
+    case 2:
+        return sin(3 * x) + sin(3 * y) + sin(3 * z);
+    case 3:
+        return y + 0.3 * sin(4 * x) * cos(3 * z);
+    case 4:
+        return NAN;
+    default:
+        return -1;
+    }
+}
+
+static inline int isosurface_roots(const double *data, dvec3 o, dvec3 d,
+                                   double *t, int *part, int room)
+{
+    isosurface_walk w;
+
+    isosurface_start(data, o, d, -INFINITY, INFINITY, t, part, room, &w);
+    while (w.asks)
+        isosurface_tell(&w, isosurface_function(data, w.p));
+    return w.count;
+}
+
+static inline dvec3 isosurface_normal(const double *data, dvec3 p, int part)
+{
+    double value[6];
+
+    for (int k = 0; k < 6; k++)
+        value[k] = isosurface_function(data, isosurface_beside(data, p, k));
+    return isosurface_normal_of(data, p, part, value);
+}
+
+static inline bool isosurface_inside(const double *data, dvec3 p)
+{
+    return isosurface_inside_of(data, p, isosurface_function(data, p));
+}
+
+/* Function, container, its 6 numbers, threshold, accuracy, max_gradient, open,
+ * and for an adapting gradient its factors. */
+SOLID_BUILD(isosurface)
+{
+    struct brume_shape shape = BRUME_SHAPE_INIT;
+
+    shape.contained = (enum brume_contained)n[1];
+    memcpy(shape.a, n + 2, sizeof shape.a);
+    memcpy(shape.b, n + 5, sizeof shape.b);
+    shape.radius = n[5];
+    shape.threshold = n[8];
+    shape.accuracy = n[9];
+    shape.max_gradient = n[10];
+    shape.open = n[11] != 0;
+    shape.evaluate = count > 12;
+    if (shape.evaluate)
+        memcpy(shape.evaluate_factors, n + 12, sizeof shape.evaluate_factors);
+    return solid_isosurface(arena, &shape, n[0], solid, err);
+}
+
 #define SOLID_KIND(name, tolerance, either, thin)                             \
     {#name, build_##name, name##_roots, name##_normal, name##_inside,         \
      tolerance, either, thin}
@@ -121,6 +189,7 @@ static const struct solid_kind solid_kinds[] = {
     SOLID_KIND(lathe, 1e-5, true, false),
     SOLID_KIND(sor, 1e-6, false, false),
     SOLID_KIND(sphere_sweep, 1e-5, false, false),
+    SOLID_KIND(isosurface, 1e-4, false, false),
     SOLID_KIND(julia, 1e-4, false, true),
 };
 enum { SOLID_KINDS = sizeof solid_kinds / sizeof *solid_kinds };

@@ -78,6 +78,16 @@ static const struct refusal refusals[] = {
            0, 0, 1, 0, 0, 0),
     REFUSE("julia", "number 2 is inf", 0, 0, 8, 20, 0, INFINITY, 0, 0, 0, 0, 0,
            1, 0, 0, 0),
+    REFUSE("isosurface", "without volume", 0, 0, -1, -1, 1, 1, 1, 1, 0, 1, 1,
+           0),
+    REFUSE("isosurface", "radius is 0;", 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0),
+    REFUSE("isosurface", "accuracy is 0;", 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0),
+    REFUSE("isosurface", "max_gradient is -1;", 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,
+           -1, 0),
+    REFUSE("isosurface", "threshold: number 1 is nan", 0, 1, 0, 0, 0, 1, 0, 0,
+           NAN, 1, 1, 0),
+    REFUSE("isosurface", "adapts by 0.5 and 1;", 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,
+           1, 0, 1, 0.5, 1),
 };
 
 static const struct solid_kind *kind_named(const char *name)
