@@ -211,6 +211,14 @@ static bool make_solid(const struct leaf_request *r, struct arena *arena,
         out->kind = SOLID_SOR;
         out->flags |= in->open ? SHAPE_OPEN : 0;
         return solid_sor(arena, false, in->data, in->count / 2, solid, err);
+    case BRUME_SHAPE_SPHERE_SWEEP:
+        out->kind = SOLID_SPHERE_SWEEP;
+        return solid_sphere_sweep(arena, in->curve, in->data, in->count / 4,
+                                  solid, err);
+    case BRUME_SHAPE_JULIA:
+        out->kind = SOLID_JULIA;
+        return solid_julia(arena, in->julia_kind, in->julia_function, in->order,
+                           in->accuracy, in->data, solid, err);
     default:
         return make_polygon(in, arena, out, local, err);
     }

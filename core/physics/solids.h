@@ -2,6 +2,7 @@
 #ifndef CORE_PHYSICS_SOLIDS_H
 #define CORE_PHYSICS_SOLIDS_H
 #include "core/physics/solid_blob.h"
+#include "core/physics/solid_julia.h"
 #include "core/physics/solid_lathe.h"
 #include "core/physics/solid_ovus.h"
 #include "core/physics/solid_poly.h"
@@ -9,6 +10,7 @@
 #include "core/physics/solid_prism.h"
 #include "core/physics/solid_quadric.h"
 #include "core/physics/solid_sor.h"
+#include "core/physics/solid_sphere_sweep.h"
 #include "core/physics/solid_superellipsoid.h"
 #include "core/physics/solid_torus.h"
 
@@ -22,7 +24,9 @@
     X(BLOB, blob)                                                             \
     X(LATHE, lathe)                                                           \
     X(PRISM, prism)                                                           \
-    X(SOR, sor)
+    X(SOR, sor)                                                               \
+    X(SPHERE_SWEEP, sphere_sweep)                                             \
+    X(JULIA, julia)
 
 enum {
     SOLID_POLYGON = 16,

@@ -49,6 +49,8 @@ SHAPES = {
                           f"clipped_by {{ plane {{ <1, 1, 0>, 0.2 }} }} }}",
     "less clipped": f"difference {{ {BOX} sphere {{ 0, 0.9 "
                     f"clipped_by {{ plane {{ x, 0.1 }} }} }} }}",
+    "text": "text { ttf \"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf\" "
+            "\"B g%\" 2.5, <0.1, 0.05> translate <-1.3, -0.2, -1> }",
     "opened": f"difference {{ {BOX} cylinder {{ <0, -2, 0>, <0, 0.5, 0>, "
               f"0.5 open }} }}",
 }
