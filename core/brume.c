@@ -232,13 +232,26 @@ int brume_add_grid(brume_scene *scene, const struct grid *grid,
     return id;
 }
 
+static bool check_field_function(const brume_scene *scene,
+                                 const struct brume_field *f,
+                                 struct brume_error *err)
+{
+    int parameters, results;
+    return (brume_function_arity(scene, f->function, &parameters, &results) &&
+            parameters == 3 && f->component >= 0 && f->component < results) ||
+           brume_fail(err, BRUME_ERR_SCENE,
+                      "a field is no function of a point with that result");
+}
+
 int brume_add_field(brume_scene *scene, const struct brume_field *field,
                     struct brume_error *err)
 {
     bool grid = field->kind == BRUME_FIELD_GRID;
     if (!check_not_negative(&field->scale, 1, "a field's scale", err) ||
         !check_id(field->grid, scene->grids_count, !grid, "grid", err) ||
-        !check_transform(field->transform, "a field", err))
+        !check_transform(field->transform, "a field", err) ||
+        (field->kind == BRUME_FIELD_FUNCTION &&
+         !check_field_function(scene, field, err)))
         return -1;
     return APPEND(scene, fields, *field, err);
 }

@@ -1,4 +1,5 @@
 #include "core/plan.h"
+#include "core/prepare.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -107,29 +108,43 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
                      (size_t)g->bricks[2],
                  (double)g->lowest, (double)g->highest);
     }
+    for (size_t i = 0; i < scene->fields_count; i++)
+        if (scene->fields[i].kind == BRUME_FIELD_FUNCTION) {
+            const flat_grid *g = &f->grids[f->fields[i].grid];
+            add_note(plan,
+                     "field %zu: a function, on a grid of %d x %d x %d bricks "
+                     "of 8^3 samples",
+                     i, g->bricks[0], g->bricks[1], g->bricks[2]);
+        }
     if (f->cells_count > 0)
         add_note(plan, "majorants: %zu cells of 8^3 voxels", f->cells_count);
 }
 
-/* The range a field's file says it has. */
-static void field_range(const brume_scene *s, int field, double *lo, double *hi)
+/* The range a field's file says it has; of a function, up to its largest. */
+static void field_range(const brume_scene *s, const struct flat *flat,
+                        int field, double *lo, double *hi)
 {
     const struct brume_field *f = &s->fields[field];
     *lo = *hi = f->scale;
+    if (f->kind == BRUME_FIELD_FUNCTION) {
+        *lo = 0.0;
+        *hi = (double)prepare_field_bound_everywhere(flat, field);
+    }
     if (f->kind == BRUME_FIELD_GRID) {
         *lo *= (double)s->grids[f->grid]->lowest;
         *hi *= (double)s->grids[f->grid]->highest;
     }
 }
 
-static void note_fires(const brume_scene *scene, struct brume_plan *plan)
+static void note_fires(const brume_scene *scene, const struct flat *flat,
+                       struct brume_plan *plan)
 {
     for (size_t i = 0; i < scene->media_count; i++) {
         const struct brume_fire *f = &scene->media[i].fire;
         double lo, hi;
         if (!f->on)
             continue;
-        field_range(scene, f->temperature, &lo, &hi);
+        field_range(scene, flat, f->temperature, &lo, &hi);
         lo = f->kelvin_scale * lo + f->kelvin_offset;
         hi = f->kelvin_scale * hi + f->kelvin_offset;
         add_note(plan, "fire of medium %zu: %.0f to %.0f kelvin%s", i,
@@ -166,5 +181,5 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               "opacity, depth, background and emission toward the eye");
     add_stage(plan, "path", s.path, 0, path_reason(f, &s));
     note_grids(scene, f, plan);
-    note_fires(scene, plan);
+    note_fires(scene, f, plan);
 }

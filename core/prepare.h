@@ -24,7 +24,13 @@ bool prepare_lights(const struct prepare *job, struct brume_error *err);
 bool prepare_shapes(const struct prepare *job, const struct assembly *a,
                     struct brume_error *err);
 /* prepare_grids.c: bricks with aprons, fields. */
-bool prepare_grids(const struct prepare *job, struct brume_error *err);
+bool prepare_grids(const struct prepare *job, const struct assembly *a,
+                   struct brume_error *err);
+/* prepare_function.c: a field that is a function, as a grid in the scene's
+ * space over the bounds of its containers; freed with grid_free. */
+struct grid *prepare_function(const struct prepare *job,
+                              const struct assembly *a, int field,
+                              struct brume_error *err);
 /* prepare_media.c: media, their majorant lattices, interiors. */
 bool prepare_media(const struct prepare *job, struct brume_error *err);
 /* prepare_glow.c: the emitting voxels as lights, where light is followed. */

@@ -167,21 +167,13 @@ static void share_lattice(const struct flat *f, flat_field *out)
         }
 }
 
-static bool add_field(const struct prepare *job, const struct brume_field *in,
-                      struct brume_error *err)
+/* A field that reads the flat grid `grid`, whose own space is the field's. */
+static bool place_field(const struct prepare *job, const struct grid *grid,
+                        const matrix *placed, flat_field *out,
+                        struct brume_error *err)
 {
-    flat_field *out = FLAT_EXTEND(job->flat, fields, 1, err);
-    if (!out)
-        return false;
-    out->kind = in->kind == BRUME_FIELD_GRID ? FIELD_GRID : FIELD_CONSTANT;
-    out->scale = (float)in->scale;
-    out->grid = in->grid;
-    if (out->kind == FIELD_CONSTANT)
-        return true;
-    const struct grid *grid = job->scene->grids[in->grid];
-    matrix file = matrix_from(grid->to_world);
-    matrix placed = matrix_from(in->transform), to_world, to_index;
-    to_world = matrix_compose(&placed, &file);
+    matrix file = matrix_from(grid->to_world), to_world, to_index;
+    to_world = matrix_compose(placed, &file);
     to_world = matrix_compose(&job->flat->to_unit, &to_world);
     if (!matrix_invert(&to_world, &to_index))
         return brume_fail(err, BRUME_ERR_SCENE,
@@ -191,14 +183,46 @@ static bool add_field(const struct prepare *job, const struct brume_field *in,
     return true;
 }
 
-bool prepare_grids(const struct prepare *job, struct brume_error *err)
+/* Through a grid of its own, which comes after all others. */
+static bool add_function(const struct prepare *job, const struct assembly *a,
+                         int field, flat_field *out, struct brume_error *err)
+{
+    matrix here = matrix_identity();
+    struct grid *grid = prepare_function(job, a, field, err);
+    out->grid = (int32_t)job->flat->grids_count;
+    bool done = grid && add_grid(job, grid, err) &&
+                place_field(job, grid, &here, out, err);
+    grid_free(grid);
+    return done;
+}
+
+static bool add_field(const struct prepare *job, const struct assembly *a,
+                      int field, struct brume_error *err)
+{
+    const struct brume_field *in = &job->scene->fields[field];
+    flat_field *out = FLAT_EXTEND(job->flat, fields, 1, err);
+    if (!out)
+        return false;
+    out->kind = in->kind == BRUME_FIELD_CONSTANT ? FIELD_CONSTANT : FIELD_GRID;
+    out->scale = (float)in->scale;
+    out->grid = in->grid;
+    if (in->kind == BRUME_FIELD_FUNCTION)
+        return add_function(job, a, field, out, err);
+    if (in->kind == BRUME_FIELD_CONSTANT)
+        return true;
+    matrix placed = matrix_from(in->transform);
+    return place_field(job, job->scene->grids[in->grid], &placed, out, err);
+}
+
+bool prepare_grids(const struct prepare *job, const struct assembly *a,
+                   struct brume_error *err)
 {
     const brume_scene *s = job->scene;
     for (size_t i = 0; i < s->grids_count; i++)
         if (!add_grid(job, s->grids[i], err))
             return false;
     for (size_t i = 0; i < s->fields_count; i++)
-        if (!add_field(job, &s->fields[i], err))
+        if (!add_field(job, a, (int)i, err))
             return false;
     flat_view(job->flat);
     return true;

@@ -1,0 +1,272 @@
+/* test_density.c - densities that are functions: what is drawn of them
+ * against closed forms and against the function itself, and majorants. */
+#include "tests/unit/truth.h"
+#include <stdlib.h>
+#include <string.h>
+#include "core/physics/medium.h"
+#include "core/prepare.h"
+
+/* (x, y, z) -> slope . p + offset, or its four multiples beside it */
+static int add_linear(brume_scene *s, const double slope[3], double offset)
+{
+    struct brume_function *f = brume_function_new(s, 3, truth_error());
+    for (int i = 0; i < 3; i++) {
+        brume_function_parameter(f, i, truth_error());
+        brume_function_constant(f, slope[i], truth_error());
+        brume_function_op(f, BRUME_OP_MULTIPLY, truth_error());
+        if (i > 0)
+            brume_function_op(f, BRUME_OP_ADD, truth_error());
+    }
+    brume_function_constant(f, offset, truth_error());
+    brume_function_op(f, BRUME_OP_ADD, truth_error());
+    return brume_add_function(s, f, truth_error());
+}
+
+static int add_pattern(brume_scene *s, enum brume_pattern kind)
+{
+    const double generator = 2, warp[6] = {6, 2, .5, .7, .7, .7};
+    bool bozo = kind == BRUME_PATTERN_BOZO;
+    struct brume_function *f = brume_function_new(s, 3, truth_error());
+    for (int i = 0; i < 3; i++)
+        brume_function_parameter(f, i, truth_error());
+    if (bozo)
+        brume_function_warp(f, BRUME_WARP_TURBULENCE, warp, 6, truth_error());
+    brume_function_pattern(f, kind, &generator, bozo, truth_error());
+    return brume_add_function(s, f, truth_error());
+}
+
+static int add_field(brume_scene *s, int function)
+{
+    struct brume_field field = BRUME_FIELD_INIT;
+    field.kind = BRUME_FIELD_FUNCTION;
+    field.function = function;
+    int id = brume_add_field(s, &field, truth_error());
+    assert_true(id >= 0);
+    return id;
+}
+
+/* In a box of half width 1 from z = 0 to 2. */
+static void fill(brume_scene *s, int field)
+{
+    struct brume_medium m = truth_medium(1, 0, 0);
+    m.density[0] = field;
+    m.densities = 1;
+    truth_fill(s, truth_box(1, 0, 2), &m);
+}
+
+/* Absorption of density (x + 1) through 2 units: 1 - exp(-2 (x + 1)). */
+static void test_linear(void **state)
+{
+    (void)state;
+    const double slope[3] = {1, 0, 0};
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    struct brume_camera c = BRUME_CAMERA_INIT;
+    c.kind = BRUME_CAMERA_ORTHOGRAPHIC;
+    c.location[2] = -3;
+    c.right[0] = c.up[1] = 2;
+    brume_set_camera(s, &c, truth_error());
+    fill(s, add_field(s, add_linear(s, slope, 1)));
+    struct brume_options o = BRUME_OPTIONS_INIT;
+    struct brume_frame f;
+    o.width = o.height = 20;
+    o.spp = 64;
+    assert_true(brume_render(s, &o, &f, truth_error()));
+    for (int i = 2; i < 18; i++) {
+        double lo = (i - 10) / 10.0, sum = 0;
+        for (int k = 0; k < 20; k++)
+            sum += (double)f.opacity[3 * (20 * k + i)] / 20;
+        /* the mean of exp over the pixel */
+        double a = exp(-2 * (lo + 1)), b = exp(-2 * (lo + 1.1));
+        if (!(fabs(sum - (1 - (a - b) / 0.2)) < 1.5e-3))
+            fail_msg("pixel %d: %g, not %g", i, sum, 1 - (a - b) / 0.2);
+    }
+    assert_int_equal(f.stats.majorant_exceeded, 0);
+    brume_frame_free(&f);
+    brume_scene_free(s);
+}
+
+struct counted {
+    int errors, beyond;
+};
+
+static void count_warning(void *user, const char *text)
+{
+    struct counted *c = user;
+    c->errors += strstr(text, "with an error") != NULL;
+    c->beyond += strstr(text, "unbounded") != NULL;
+}
+
+static struct flat *prepare(brume_scene *s, struct counted *warned)
+{
+    struct prepare job = {
+        .scene = s, .threads = 1, .warn = count_warning, .user = warned};
+    memset(warned, 0, sizeof *warned);
+    struct flat *f = prepare_scene(&job, truth_error());
+    assert_non_null(f);
+    return f;
+}
+
+static double random_in(uint64_t *seed, double lo, double hi)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return lo + (hi - lo) * (double)(*seed >> 40) / 16777216.0;
+}
+
+/* Of the medium's lattice at a point of unit space. */
+static float majorant_at(const flat_scene *v, const flat_medium *m, vec3 p)
+{
+    vec3 c = affine_point(&m->to_cell, p);
+    int cell[3];
+    for (int i = 0; i < 3; i++) {
+        cell[i] = hd_floor(vec3_get(c, i));
+        if (cell[i] < 0 || cell[i] >= m->cells[i])
+            return m->outside.density;
+    }
+    return v
+        ->cells[m->cell + (uint64_t)cell[0] +
+                (uint64_t)m->cells[0] *
+                    ((uint64_t)cell[1] +
+                     (uint64_t)m->cells[1] * (uint64_t)cell[2])]
+        .density;
+}
+
+/* Draws from the box; root mean square of the error over that of the value.
+ * Each lookup is within the majorant of its cell. */
+static double compare(brume_scene *s, const struct flat *f, int function)
+{
+    const flat_scene *v = &f->view;
+    const flat_medium *m = &v->media[0];
+    uint64_t seed = 7;
+    double wrong = 0, all = 0;
+    for (int k = 0; k < 20000; k++) {
+        double p[3] = {random_in(&seed, -1, 1), random_in(&seed, -1, 1),
+                       random_in(&seed, 0, 2)};
+        double q[3], out[BRUME_MAX_RESULTS];
+        matrix_point(&f->to_unit, p, q);
+        vec3 at = vec3_make((float)q[0], (float)q[1], (float)q[2]);
+        field_point x = field_point_make(v, m->lead, at);
+        float density = field_eval(v, m->density[0], &x);
+        if (!(density <= majorant_at(v, m, at)))
+            fail_msg("density %g above %g", (double)density,
+                     (double)majorant_at(v, m, at));
+        brume_eval_function(s, function, p, 3, out, truth_error());
+        double truth = fmax(out[0], 0);
+        wrong += ((double)density - truth) * ((double)density - truth);
+        all += truth * truth;
+    }
+    return sqrt(wrong / all);
+}
+
+static double bake(enum brume_pattern kind, struct counted *warned)
+{
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    int function = add_pattern(s, kind);
+    fill(s, add_field(s, function));
+    struct flat *f = prepare(s, warned);
+    double error = compare(s, f, function);
+    flat_free(f);
+    brume_scene_free(s);
+    return error;
+}
+
+static void test_bounds(void **state)
+{
+    (void)state;
+    struct counted warned;
+    assert_true(bake(BRUME_PATTERN_SPHERICAL, &warned) <= 0.012);
+    assert_int_equal(warned.errors, 0);
+    /* turbulence is finer than a grid, and is told of */
+    double error = bake(BRUME_PATTERN_BOZO, &warned);
+    assert_true(error <= 0.012 || (error < 0.1 && warned.errors == 1));
+    /* so are edges */
+    assert_true(bake(BRUME_PATTERN_CHECKER, &warned) < 0.2);
+    assert_int_equal(warned.errors, 1);
+    assert_int_equal(warned.beyond, 0);
+}
+
+/* Twice as wide by its transform, the second result, times 3. */
+static void test_placed(void **state)
+{
+    (void)state;
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    struct brume_function *fn = brume_function_new(s, 3, truth_error());
+    brume_function_constant(fn, 100, truth_error());
+    brume_function_parameter(fn, 2, truth_error());
+    struct brume_field field = BRUME_FIELD_INIT;
+    field.kind = BRUME_FIELD_FUNCTION;
+    field.function = brume_add_function(s, fn, truth_error());
+    field.component = 1;
+    field.scale = 3;
+    field.transform[2][2] = 2;
+    fill(s, brume_add_field(s, &field, truth_error()));
+    struct counted warned;
+    struct flat *f = prepare(s, &warned);
+    for (int k = 1; k < 20; k++) {
+        double p[3] = {0.3, -0.4, k / 10.0}, q[3];
+        matrix_point(&f->to_unit, p, q);
+        field_point x = field_point_make(
+            &f->view, f->view.media[0].lead,
+            vec3_make((float)q[0], (float)q[1], (float)q[2]));
+        double got = (double)field_eval(&f->view, 0, &x);
+        assert_true(fabs(got - 3 * p[2] / 2) < 1e-5);
+    }
+    flat_free(f);
+    brume_scene_free(s);
+}
+
+/* In the atmosphere it goes on beyond the scene as its mean. */
+static void test_unbounded(void **state)
+{
+    (void)state;
+    const double slope[3] = {0, 0, 0};
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    struct brume_medium m = truth_medium(1, 0, 0);
+    m.density[0] = add_field(s, add_linear(s, slope, 2));
+    m.densities = 1;
+    int id = brume_add_medium(s, &m, truth_error());
+    int in = brume_add_interior(s, &id, 1, truth_error());
+    brume_set_atmosphere(s, in, truth_error());
+    struct counted warned;
+    struct flat *f = prepare(s, &warned);
+    assert_int_equal(warned.beyond, 1);
+    field_point x = field_point_make(&f->view, f->view.media[0].lead,
+                                     vec3_make(900, 900, 900));
+    assert_true(fabsf(field_eval(&f->view, 0, &x) - 2) < 1e-5f);
+    flat_free(f);
+    brume_scene_free(s);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const double slope[3] = {1, 0, 0};
+    brume_scene *s = brume_scene_new(truth_error());
+    struct brume_field field = BRUME_FIELD_INIT;
+    field.kind = BRUME_FIELD_FUNCTION;
+    assert_int_equal(brume_add_field(s, &field, NULL), -1);
+    field.function = add_linear(s, slope, 0);
+    field.component = 1;
+    assert_int_equal(brume_add_field(s, &field, NULL), -1);
+    struct brume_function *f = brume_function_new(s, 2, truth_error());
+    brume_function_parameter(f, 0, truth_error());
+    field.function = brume_add_function(s, f, truth_error());
+    field.component = 0;
+    assert_int_equal(brume_add_field(s, &field, NULL), -1);
+    brume_scene_free(s);
+}
+
+#define CASE(name)                                                             \
+    {                                                                          \
+        "density__" #name, test_##name, NULL, NULL, NULL                       \
+    }
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {CASE(linear), CASE(bounds), CASE(placed),
+                                       CASE(unbounded), CASE(refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
