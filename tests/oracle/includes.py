@@ -280,7 +280,7 @@ def values(names):
     """Statements that print the numbers, vectors and colours."""
     skip = {"macro", "function", "array", "spline", "mesh2", "version"}
     return "".join(
-        f'#ifdef ({n}) #debug "@{n}=" Show_C({n}) #end\n'
+        f'#ifdef ({n}) Show_S("{n}") Show_C({n}) #end\n'
         for n, (k, _) in sorted(names.items())
         if k not in skip and not kind_of(k, names) and n not in PRIVATE
         and not re.search("inc_temp", n, re.I))
