@@ -583,6 +583,10 @@ BRUME_API bool brume_function_pattern(struct brume_function *function,
                                       enum brume_pattern kind,
                                       const double *numbers, int count,
                                       struct brume_error *err);
+/* Takes a point and leaves the value of a grid there, where its own transform
+ * has it: the pattern of a density file. */
+BRUME_API bool brume_function_grid(struct brume_function *function, int grid,
+                                   struct brume_error *err);
 /* Takes a value and leaves its place in a map, from 0 to 1; the exponent is
  * that of poly_wave. */
 BRUME_API bool brume_function_wave(struct brume_function *function,

@@ -614,7 +614,7 @@ bool brume_function_arity(const brume_scene *scene, int id, int *parameters,
 
 machine function_machine(const brume_scene *scene)
 {
-    machine m = {scene->code, scene->functions, scene->pool};
+    machine m = {scene->code, scene->functions, scene->pool, scene->grids};
     return m;
 }
 

@@ -137,6 +137,8 @@ static bool special_holds(const struct verifier *v,
     switch (i->op) {
     case MACHINE_RETURN:
         return i->b == v->f->results && (i->b == 1 || in_frame(v, i->a, i->b));
+    case MACHINE_GRID:
+        return i->c >= 0 && (size_t)i->c < v->scene->grids_count;
     case MACHINE_MIX:
         return i->c >= 1 && in_frame(v, i->a, 2 * (int64_t)i->c) &&
                in_frame(v, i->dst, i->c);

@@ -14,6 +14,9 @@
 #ifndef CORE_PHYSICS_MACHINE_H
 #define CORE_PHYSICS_MACHINE_H
 #include "core/physics/blend.h"
+#ifndef PHYSICS_DOUBLE
+#include "core/physics/grid.h"
+#endif
 #include "core/physics/internal.h"
 #include "core/physics/pattern.h"
 #include "core/physics/pattern_warp.h"
@@ -94,6 +97,8 @@ enum {
     X(TRANSFORM, "3p--")    /* 12 numbers of the pool: rows of A|b         */ \
     X(WARP, "3w--")         /* the point at dst, through a warp of kind c  */ \
     X(PATTERN, "3m--")      /* dst = pattern of kind c at the point there  */ \
+    X(GRID, "3p--")         /* dst = grid c at the point there, to whose       \
+                               index space the 12 numbers lead             */ \
     X(WAVE, "14v-")         /* of type, exponent, frequency and phase      */ \
     X(BLEND, "-bv-")        /* dst... = the values of a map at b           */ \
     X(CHOOSE, "-bv-")       /* dst... = those of its entry number b        */ \
@@ -131,7 +136,21 @@ typedef struct {
     const machine_instruction *code;
     const machine_function *functions;
     const real *pool;
+    const void *grids;      /* in float the flat_scene, in double the host's
+                               array of struct grid (lib/grid.h)           */
 } machine;
+
+/* The value of a grid at a point of its index space. */
+#ifdef PHYSICS_DOUBLE
+double machine_grid(const machine *m, int id, real3 index);
+#else
+HD float machine_grid(const machine *m, int id, real3 index)
+{
+    const flat_scene *s = (const flat_scene *)m->grids;
+    return grid_lookup(s, &s->grids[id],
+                       vec3_make(index.x, index.y, index.z));
+}
+#endif
 
 HD real machine_value(const machine *m, const real *r, int32_t operand)
 {
@@ -273,6 +292,10 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
         case MACHINE_PATTERN:
             r[i->dst] = pattern_value(i->c, machine_point(r + i->dst),
                                       m->pool + i->a);
+            break;
+        case MACHINE_GRID:
+            machine_transform(m->pool + i->a, r + i->dst);
+            r[i->dst] = machine_grid(m, i->c, machine_point(r + i->dst));
             break;
         case MACHINE_WAVE:
             r[i->dst] = machine_wave(m->pool + i->a,

@@ -3,6 +3,7 @@
 #include "tests/unit/truth.h"
 #include <stdlib.h>
 #include <string.h>
+#include "core/physics/machine.h"
 #include "core/physics/medium.h"
 #include "core/prepare.h"
 
@@ -240,6 +241,95 @@ static void test_unbounded(void **state)
     brume_scene_free(s);
 }
 
+/* ---- grids in functions ------------------------------------------------ */
+
+/* Samples x + 10 y + 100 z at index (x, y, z), placed at twice that. */
+static int add_ramp(brume_scene *s, enum grid_filter filter, bool clip)
+{
+    const int32_t origin[3] = {0, 0, 0}, bricks[3] = {1, 1, 1};
+    struct grid *g = grid_new(origin, bricks, 7, truth_error());
+    float *v = grid_brick(g, 0, 0, 0, truth_error());
+    for (int i = 0; i < GRID_BRICK_VOXELS; i++)
+        v[i] = (float)(i % 8 + 10 * (i / 8 % 8) + 100 * (i / 64));
+    g->filter = filter;
+    g->clip = clip;
+    for (int i = 0; i < 3; i++) {
+        g->clip_min[i] = 0;
+        g->clip_max[i] = 5;
+        for (int k = 0; k < 4; k++)
+            g->to_world[i][k] = i == k ? 2 : 0;
+    }
+    int id = brume_add_grid(s, g, truth_error());
+    grid_free(g);
+    struct brume_function *f = brume_function_new(s, 3, truth_error());
+    for (int i = 0; i < 3; i++)
+        brume_function_parameter(f, i, truth_error());
+    brume_function_grid(f, id, truth_error());
+    return brume_add_function(s, f, truth_error());
+}
+
+static double at_grid(brume_scene *s, int id, double x, double y, double z)
+{
+    const double p[3] = {x, y, z};
+    double out[BRUME_MAX_RESULTS];
+    assert_true(brume_eval_function(s, id, p, 3, out, truth_error()));
+    return out[0];
+}
+
+static void test_grid(void **state)
+{
+    (void)state;
+    brume_scene *s = brume_scene_new(truth_error());
+    int smooth = add_ramp(s, GRID_TRILINEAR, false);
+    int clipped = add_ramp(s, GRID_TRILINEAR, true);
+    int nearest = add_ramp(s, GRID_NEAREST, false);
+    assert_true(fabs(at_grid(s, smooth, 3, 5, 7) - 376.5) < 1e-9);
+    assert_true(fabs(at_grid(s, clipped, 3, 5, 7) - 376.5) < 1e-9);
+    assert_true(at_grid(s, nearest, 3.1, 5.2, 7.2) == 432);
+    assert_true(at_grid(s, smooth, -1, 0, 0) == 3.5);
+    assert_true(at_grid(s, smooth, 1e12, 0, 0) == 7);
+    assert_true(at_grid(s, smooth, NAN, 0, 0) == 7);
+    assert_true(at_grid(s, clipped, 10.1, 0, 0) == 0);
+    assert_true(at_grid(s, nearest, 1e300, 0, 0) == 7);
+
+    struct brume_function *f = brume_function_new(s, 3, truth_error());
+    assert_false(brume_function_grid(f, 3, NULL));
+    brume_function_free(f);
+    brume_scene_free(s);
+}
+
+/* In float, by the bricks of a renderer, it is the same. */
+static void test_grid_float(void **state)
+{
+    (void)state;
+    brume_scene *s = brume_scene_new(truth_error());
+    struct counted warned;
+    int ids[3] = {add_ramp(s, GRID_TRILINEAR, false),
+                  add_ramp(s, GRID_TRILINEAR, true),
+                  add_ramp(s, GRID_NEAREST, false)};
+    struct flat *flat = prepare(s, &warned);
+    float pool[256], r[MACHINE_REGISTERS];
+    assert_true(s->pool_count <= 256);
+    for (size_t i = 0; i < s->pool_count; i++)
+        pool[i] = (float)s->pool[i];
+    machine m = {s->code, s->functions, pool, &flat->view};
+    uint64_t seed = 3;
+    for (int k = 0; k < 3000; k++) {
+        double p[3];
+        for (int i = 0; i < 3; i++) {
+            p[i] = random_in(&seed, -3, 18);
+            r[i] = (float)p[i];
+        }
+        assert_true(machine_run(&m, ids[k % 3], r));
+        double truth = at_grid(s, ids[k % 3], p[0], p[1], p[2]);
+        if (!(fabs((double)r[0] - truth) <= 2e-3))
+            fail_msg("grid %d at <%g, %g, %g>: %g, not %g", k % 3, p[0], p[1],
+                     p[2], (double)r[0], truth);
+    }
+    flat_free(flat);
+    brume_scene_free(s);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -266,7 +356,8 @@ static void test_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {CASE(linear), CASE(bounds), CASE(placed),
-                                       CASE(unbounded), CASE(refused)};
+    const struct CMUnitTest tests[] = {
+        CASE(linear), CASE(bounds),     CASE(placed), CASE(unbounded),
+        CASE(grid),   CASE(grid_float), CASE(refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,6 +81,7 @@ static void test_instructions(void **state)
         {false, {MACHINE_WARP, 0, 0, 0, WARP_PLANAR}},
         {false, {MACHINE_WARP, 0, 0, 0, -1}},
         {false, {MACHINE_WAVE, 0, 0, 0, 0}},
+        {false, {MACHINE_GRID, 0, 0, 0, 0}},
         {false, {MACHINE_BLEND, 0, 0, 0, 0}},
         {false, {MACHINE_CALL_ENTRY, 0, 0, 0, 0}},
         {false, {MACHINE_SPLINE, 0, 0, 0, -1}},
