@@ -15,7 +15,7 @@ HD float medium_density(const flat_scene *s, const flat_medium *m,
     float d = 1.0f;
     for (int i = 0; i < m->densities && d != 0.0f; i++)
         d *= field_eval(s, m->density[i], x);
-    return d;
+    return hd_min(d, m->densest);
 }
 
 /* What a colour of Planck's law is divided by, so that its size is what the

@@ -62,10 +62,11 @@ HD void path_add(path_state *p, rgb value)
                           rgb_scale(value, 1.0f / rgb_mean(p->r_u)));
 }
 
-/* Uniform in (0, 1), fine near 0 for rare events. */
+/* Uniform in (0, 1), fine near 0 for rare events; never rounded to 1, which
+ * would end white paths. */
 HD float path_fine(rng *r)
 {
-    return ((float)rng_u32(r) + 0.5f) * 2.32830644e-10f;
+    return hd_min(((float)rng_u32(r) + 0.5f) * 2.32830644e-10f, 0.99999994f);
 }
 
 /* ---- media between two surfaces ---------------------------------------- */
@@ -727,6 +728,8 @@ HD bool path_segment(const flat_scene *s, path_state *p,
     bvh_ray r = bvh_ray_make(p->o, p->d);
     p->count->rays++;
     ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
+    if (h.shape < 0)
+        container_leave_bounded(s, &p->inside);
     path_event at;
     int event = path_media(s, p, h.t, &at);
     if (event == PATH_SCATTERED)

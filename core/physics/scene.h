@@ -52,6 +52,8 @@ typedef struct {
     int32_t phase;          /* POV-Ray's number                            */
     float g;
     int32_t densities, density[MAX_DENSITIES];
+    float densest;          /* more counts as this: where it scatters, places
+                               must differ from one event to the next      */
     int32_t uniform;        /* 1: no lattice, `outside` is everywhere      */
     int32_t emits;
     int32_t planes, plane_field[MAX_PLANES];    /* fields whose voxel planes

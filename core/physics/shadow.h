@@ -38,6 +38,8 @@ HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
     c->shadow_rays++;
     for (;;) {
         ray_hit h = bvh_nearest(s, &r, &after, distance);
+        if (h.shape < 0 && distance >= s->far)
+            container_leave_bounded(s, set);
         rgb pass = h.shape >= 0 ? shadow_surface(s, &r, &h) : rgb_gray(1.0f);
         if (rgb_is_black(pass))
             return pass;

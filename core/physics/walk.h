@@ -249,6 +249,25 @@ HD void container_enter(container_set *set, int shape)
         set->lost++;
 }
 
+HD bool container_is_unbounded(const flat_scene *s, int shape)
+{
+    for (uint64_t i = 0; i < s->unbounded_count; i++)
+        if (s->unbounded[i] == shape)
+            return true;
+    return false;
+}
+
+/* A ray that hits nothing is in nothing bounded: where rounding put its origin
+ * beyond a boundary, it has left. */
+HD void container_leave_bounded(const flat_scene *s, container_set *set)
+{
+    int kept = 0;
+    for (int i = 0; i < set->count; i++)
+        if (container_is_unbounded(s, set->shape[i]))
+            set->shape[kept++] = set->shape[i];
+    set->count = kept;
+}
+
 HD void container_leave(container_set *set, int shape)
 {
     for (int i = 0; i < set->count; i++)

@@ -10,6 +10,8 @@ struct truth_row {
     double (*batch)(const struct truth_row *row, int spp, uint32_t frame);
     double p[4];
     double truth, u;
+    double rare;            /* the largest value of a sample, where most are
+                               0; or 0                                     */
     bool sample;            /* run by `make test` too                      */
 };
 
