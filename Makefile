@@ -58,7 +58,7 @@ PARSER   := $(call objects,$(wildcard parser/*.c)) $(GENERATED)
 # What tests link of the front end: all but the program.
 FRONT    := $(filter-out $(B)/parser/main.o,$(PARSER))
 UNITS    := $(call programs,tests/unit)
-TOOLS    := $(call programs,tests/tools)
+TOOLS    := $(call programs,tests/tools) $(call programs,tests/bench)
 ifneq ($(CUDA_SRC),)
 CORE     += $(call objects,$(CUDA_SRC))
 CPPFLAGS += -DBRUME_CUDA

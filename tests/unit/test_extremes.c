@@ -67,7 +67,7 @@ static struct brume_medium dense_as(brume_scene *s, struct grid *g,
     return m;
 }
 
-/* ---- optical depth ------------------------------------------------------ */
+/* ---- optical depth ---------------- */
 
 /* A million voxels in a row: a sum of as many terms, which a float loses. */
 static void extremes__long_sums(void **state)
@@ -116,7 +116,7 @@ static void extremes__source_in_a_vacuum(void **state)
     }
 }
 
-/* ---- many bounces -------------------------------------------------------- */
+/* ---- many bounces ---------------- */
 
 static struct estimate furnace_slab(double depth, double g, int pixels, int spp)
 {
@@ -238,7 +238,7 @@ static void extremes__long_paths_keep_directions(void **state)
     assert_true(fabsf(vec3_length(d) - 1.0f) < 1e-6f);
 }
 
-/* ---- grids ---------------------------------------------------------------- */
+/* ---- grids ---------------- */
 
 static void extremes__empty_and_tiny_grids(void **state)
 {
@@ -345,7 +345,7 @@ static void extremes__huge_grid(void **state)
     check_near("tau", -log1p(-truth_render(s, 1, 1).opacity), 0.25 * 8.0, 1e-5);
 }
 
-/* ---- scales and places ----------------------------------------------------- */
+/* ---- scales and places ---------------- */
 
 static struct estimate scaled(double k)
 {
@@ -408,7 +408,7 @@ static void extremes__nested_media(void **state)
     }
 }
 
-/* ---- light ------------------------------------------------------------------ */
+/* ---- light ---------------- */
 
 /* A lamp so near the ray that 1/d^2 is 1e12 times that of the ends: the mean
  * is mu / (4 pi D) (pi - D (1/a + 1/b)), and on the ray all stays finite. */
