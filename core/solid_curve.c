@@ -34,6 +34,11 @@ static bool points_check(const char *what, enum brume_curve curve,
                          const double *points, size_t count,
                          struct brume_error *err)
 {
+    if (curve == BRUME_CURVE_B_SPLINE)
+        return brume_fail(err, BRUME_ERR_SCENE,
+                          "%s along a B-spline; expected a linear, quadratic, "
+                          "cubic or Bezier spline",
+                          what);
     if (curve_segments(curve, count) > 0)
         return solid_finite(points, 2 * count, what, err);
     return brume_fail(err, BRUME_ERR_SCENE,

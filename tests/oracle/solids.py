@@ -197,7 +197,8 @@ FRAME = off(0, 0, 2, 0.1, 1.9, 2, -0.1, 2, 0, 0,
          0.5, 0.5, 1.5, 0.4, 1.4, 1.6, 0.5, 0.5)
 KINDS = {
     "torus": (torus, [
-        (1, 0.25), (1, 1), (3, 2.5), (1, 0.01)], 1.4),
+        (1, 0.25), (1, 1), (3, 2.5), (1, 0.01), (0.5, 1), (0.1, 1), (0, 1)],
+              1.4),
     "quadric": (quadric, [
         (1, 2, 3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, -1),
         (1, 0, 1, 0, 0, 0, 0, -1, 0, 0),
@@ -211,6 +212,9 @@ KINDS = {
         (3, *terms(3, {(3, 0, 0): 1, (1, 2, 0): -1, (0, 0, 2): 1,
                        (0, 1, 0): 0.5, (0, 0, 0): -0.2})),
         (4, *terms(4, quartic_torus(1, 0.4))),
+        # Along some lines no more than linear.
+        (3, *terms(3, {(3, 0, 0): 1, (0, 3, 0): -27, (0, 0, 3): 1,
+                       (0, 0, 1): 1, (1, 0, 0): 0.3, (0, 0, 0): -0.2})),
         (5, *terms(5, {(5, 0, 0): 1, (0, 1, 0): 1, (0, 0, 3): -2,
                        (1, 1, 1): 3, (0, 0, 0): 0.1})),
         (6, *terms(6, {(6, 0, 0): 1, (0, 6, 0): 1, (0, 0, 6): 1,
@@ -279,7 +283,7 @@ KINDS = {
         (0, 0, -1.1, -1.2, -1.1, 1.1, 1.2, 1.1, 0, 1e-5, 5, 0),
         (0, 0, -0.9, -0.8, -1.1, 0.7, 0.9, 1.1, 0.1, 1e-5, 5, 0),
         (1, 0, -1.1, -0.5, -1.1, 1.1, 0.4, 1, 0, 1e-5, 5, 0),
-        (2, 0, -1, -1, -1, 1, 1, 1, 0.2, 1e-5, 6, 0),
+        (2, 0, -1, -1, -1, 1, 1, 1, 0.2, 1e-5, 5.2, 0),
         (2, 0, -1, -1, -1, 1, 1, 1, 0.2, 1e-5, 6, 0, 5.5, 1.3, 0.9),
         (3, 1, 0.1, 0, 0, 1.2, 0, 0, 0, 1e-5, 2, 0)], 1.2),
     "ovus": (ovus, [
@@ -344,9 +348,12 @@ def measure(kind):
 
 
 def trusted(kind, numbers, line):
-    """The line without what POV-Ray contradicts itself in: of most functions
-    of hypercomplex numbers normals are not across the surfaces that it
-    traces, and some insides do not end there."""
+    """The line without what POV-Ray contradicts itself in: a torus that
+    overlaps itself has surfaces within; of most functions of hypercomplex
+    numbers normals are not across the surfaces that it traces, and some
+    insides do not end there."""
+    if kind == "torus" and numbers[0] < numbers[1]:
+        return "" if line.startswith("trace") else line
     if kind != "julia" or not numbers[0] or numbers[1] <= 1:
         return line
     function = FUNCTIONS[numbers[1]]

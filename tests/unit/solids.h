@@ -125,6 +125,8 @@ static inline double isosurface_function(const double *data, dvec3 p)
         return y + 0.3 * sin(4 * x) * cos(3 * z);
     case 4:
         return NAN;
+    case 5:
+        return sqrt(x * x + y * y + z * z) - 0.05;
     default:
         return -1;
     }

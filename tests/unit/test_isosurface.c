@@ -42,9 +42,9 @@ static const dvec3 along_x = {2, 0, 0}, from_left = {-3, 0, 0};
 static void test_isosurface__no_surface(void **state)
 {
     (void)state;
-    const double full[] = {5, 0, -1, -1, -1, 1, 1, 1, 0, 1e-3, 1, 0};
-    const double none[] = {5, 0, -1, -1, -1, 1, 1, 1, -2, 1e-3, 1, 0};
-    const double open[] = {5, 0, -1, -1, -1, 1, 1, 1, 0, 1e-3, 1, 1};
+    const double full[] = {6, 0, -1, -1, -1, 1, 1, 1, 0, 1e-3, 1, 0};
+    const double none[] = {6, 0, -1, -1, -1, 1, 1, 1, -2, 1e-3, 1, 0};
+    const double open[] = {6, 0, -1, -1, -1, 1, 1, 1, 0, 1e-3, 1, 1};
     struct walked w = WALK(full, from_left, along_x, -INFINITY, INFINITY);
     assert_int_equal(w.count, 2);
     assert_true(w.t[0] == 1 && w.t[1] == 2);
@@ -113,6 +113,23 @@ static void test_isosurface__gradient(void **state)
     assert_int_equal(w.count, 4);
 }
 
+/* A distance has the slope 1 wherever one looks from: with that gradient none
+ * of its small balls is lost, with less they are. */
+static void test_isosurface__distance(void **state)
+{
+    (void)state;
+    int lost = 0;
+    for (int i = 0; i < 100; i++) {
+        double ball[] = {5, 0, -1, -1, -1, 1 + 0.01 * i, 1, 1, 0, 1e-3, 1, 0};
+        struct walked w = WALK(ball, from_left, along_x, -INFINITY, INFINITY);
+        assert_int_equal(w.count, 2);
+        assert_true(fabs(w.t[0] - 1.475) < 1e-7);
+        ball[10] = 0.7;
+        lost += WALK(ball, from_left, along_x, -INFINITY, INFINITY).count == 0;
+    }
+    assert_true(lost > 50);
+}
+
 /* Half of the line: what is inside at its end has no crossing there. */
 static void test_isosurface__part_of_line(void **state)
 {
@@ -139,6 +156,7 @@ int main(void)
         cmocka_unit_test(test_isosurface__not_a_number),
         cmocka_unit_test(test_isosurface__endless),
         cmocka_unit_test(test_isosurface__gradient),
+        cmocka_unit_test(test_isosurface__distance),
         cmocka_unit_test(test_isosurface__part_of_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

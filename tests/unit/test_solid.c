@@ -460,6 +460,26 @@ static void test_solid__little_room(void **state)
     for_lines(look_with_little_room);
 }
 
+/* Coefficients that only rounding leaves give no roots far away: of x^3 -
+ * 27 y^3 + z along (3, 1, 0.1) there is but z. */
+static void test_solid__poly_degree(void **state)
+{
+    (void)state;
+    double c[20] = {0}, data[21] = {3}, t[3];
+    int part[3];
+
+    c[solid_poly_index(3, 3, 0, 0)] = 1;
+    c[solid_poly_index(3, 0, 3, 0)] = -27;
+    c[solid_poly_index(3, 0, 0, 1)] = 1;
+    memcpy(data + 1, c, sizeof c);
+    for (int i = 1; i <= 200; i++) {
+        dvec3 d = dvec3_make(0.03 * i, 0.01 * i, 0.0001 * i);
+        dvec3 o = dvec3_make(0, 0, -0.00005 * i);
+        assert_int_equal(poly_roots(data, o, d, t, part, 3), 1);
+        assert_true(fabs(t[0] - 0.5) < 1e-9);
+    }
+}
+
 /* ---- without caps */
 
 static int open_roots(const char *kind, const double *numbers, size_t count,
@@ -512,6 +532,7 @@ int main(void)
         cmocka_unit_test(test_solid__from_afar),
         cmocka_unit_test(test_solid__no_line),
         cmocka_unit_test(test_solid__little_room),
+        cmocka_unit_test(test_solid__poly_degree),
         cmocka_unit_test(test_solid__open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

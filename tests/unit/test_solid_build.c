@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 #include <string.h>
+#include "core/physics/rng.h"
 #include "tests/unit/solids.h"
 
 struct refusal {
@@ -54,6 +55,7 @@ static const struct refusal refusals[] = {
            1, 0, 1),
     REFUSE("prism", "prism: number 3 is nan", 0, 0, 0, 0, 1, 0, 0, NAN, 1, 0,
            1),
+    REFUSE("prism", "along a B-spline", 4, 0, 0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0),
     REFUSE("lathe", "1 points: a linear spline takes 2 or more", 0, 1, 1),
     REFUSE("lathe", "point 2 lies 1 beyond", 0, 1, 1, -1, 2),
     REFUSE("lathe", "point 4 lies 2 beyond", 3, 0, 0, -1, 1, 1, 2, -2, 3),
@@ -130,6 +132,94 @@ static void test_solid_build__no_memory(void **state)
     arena_release(&arena);
 }
 
+/* ---- any numbers */
+
+static double any_number(rng *r)
+{
+    static const double odd[] = {0,      -1,    1,     2,   3,   4,
+                                 1e-300, 1e300, -1e-9, 1e9, NAN, INFINITY};
+    float choice = rng_float(r);
+
+    if (choice < 0.1f)
+        return odd[(int)(rng_float(r) * 12)];
+    if (choice < 0.3f)
+        return (int)(rng_float(r) * 5);
+    return 4 * (double)rng_float(r) - 1.5;
+}
+
+/* Leaves out what has no such kind, more terms than numbers, or is slow. */
+static bool limited(const struct solid_kind *kind, const double *n)
+{
+    double curve = n[0];
+
+    if (kind->thin)
+        return fabs(n[0]) < 2 && n[1] >= 0 && n[1] < 18 && fabs(n[2]) < 20 &&
+               !(n[3] > 50);
+    if (kind->build == build_poly)
+        return n[0] < 4 && n[0] > -1e9;
+    if (kind->build == build_prism || kind->build == build_lathe ||
+        kind->build == build_sphere_sweep)
+        return curve >= 0 && curve < 5;
+    return true;
+}
+
+/* Roots of what was accepted ascend and are finite or far. */
+static void look_at(const struct solid_kind *kind, const struct solid *solid,
+                    rng *r)
+{
+    enum { ROOM = 16 };
+    double t[ROOM], c[6];
+    int part[ROOM];
+
+    for (int ray = 0; ray < 8; ray++) {
+        for (int i = 0; i < 6; i++)
+            c[i] = ray < 6 ? 4 * (double)rng_float(r) - 2 : any_number(r);
+        dvec3 o = dvec3_make(c[0], c[1], c[2]),
+              d = dvec3_make(c[3], c[4], c[5]);
+        int n = kind->roots(solid->data, o, d, t, part, ROOM);
+        assert_in_range(n, 0, ROOM);
+        for (int i = 0; i < n; i++) {
+            assert_false(isnan(t[i]));
+            assert_true(i == 0 || t[i - 1] <= t[i]);
+            kind->normal(solid->data, dvec3_mad(o, t[i], d), part[i]);
+        }
+        kind->inside(solid->data, o);
+    }
+}
+
+/* Built or refused with a reason, and then looked at: no crash, no hang. */
+static void test_solid_build__any_numbers(void **state)
+{
+    (void)state;
+    rng r = rng_make(4, 0, 0, 0);
+    int built = 0;
+    for (int trial = 0; trial < 20000; trial++) {
+        const struct solid_kind *kind = &solid_kinds[trial % SOLID_KINDS];
+        double numbers[60];
+        size_t count = trial % 7 ? 48 : 15;
+        struct brume_error err = {0};
+        struct solid solid;
+        struct arena arena;
+        if (kind->thin || kind->build == build_poly)
+            count = 60;
+        for (size_t i = 0; i < count; i++)
+            numbers[i] = any_number(&r);
+        if (kind->build == build_isosurface)
+            numbers[9] = fmax(numbers[9], 0.01);
+        if (!limited(kind, numbers))
+            continue;
+        arena_init(&arena, 0);
+        if (kind->build(&arena, numbers, count, &solid, &err)) {
+            built++;
+            look_at(kind, &solid, &r);
+        } else {
+            assert_true(err.text[0] != '\0');
+        }
+        arena_release(&arena);
+    }
+    assert_in_range(built, 2000, 20000);
+}
+
 /* POV-Ray's order: by falling power of x, then of y, then of z. */
 static void test_solid_build__poly_order(void **state)
 {
@@ -150,6 +240,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid_build__refusals),
         cmocka_unit_test(test_solid_build__no_memory),
+        cmocka_unit_test(test_solid_build__any_numbers),
         cmocka_unit_test(test_solid_build__poly_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
