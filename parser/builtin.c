@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* A call under way. Arguments are converted as the signature says: `f` float,
  * `v` vector of three terms, `n` number as it is, `s` string. */
@@ -118,10 +119,12 @@ static struct value run_pow(struct call *call)
 {
     double x = argument(call, 0), y = argument(call, 1);
     double power = pow(x, y);
-    if ((x == 0 && y == 0) || (isnan(power) && !isnan(x) && !isnan(y))) {
-        parser_error(call->parser, call->at, "pow(%g, %g) is not defined", x,
-                     y);
+    if (x == 0 && y == 0) {
+        parser_error(call->parser, call->at, "pow(0, 0) is not defined");
         return value_float(0);
+    }
+    if (isnan(power) && !isnan(x) && !isnan(y)) {
+        parser_warn(call->parser, call->at, "pow(%g, %g) is no number", x, y);
     }
     return value_float(power);
 }
@@ -176,13 +179,13 @@ static struct value run_select(struct call *call)
     return call->argument[chosen];
 }
 
-/* A float as the integer that bitwise functions see. */
+/* A float as the integer that bitwise functions see: what does not fit is the
+ * least one, as the processors do it that POV-Ray runs on. */
 static int32_t integer(double x)
 {
-    return x >= INT32_MAX   ? INT32_MAX
-           : x <= INT32_MIN ? INT32_MIN
-           : isnan(x)       ? 0
-                            : (int32_t)x;
+    double whole = trunc(x);
+    bool fits = whole >= INT32_MIN && whole <= INT32_MAX;
+    return fits ? (int32_t)whole : INT32_MIN;
 }
 
 static struct value run_bitwise(struct call *call)
@@ -416,7 +419,7 @@ static struct value run_vstr(struct call *call)
 {
     double asked = trunc(argument(call, 0));
     int terms = asked > VALUE_TERMS ? VALUE_TERMS : asked < 1 ? 1 : (int)asked;
-    struct value v = value_promote(call->argument[1], terms);
+    struct value v = call->argument[1];
     struct string between = string_argument(call, 2);
     char format[32];
     if (!number_format(call, 3, format, sizeof format)) {
@@ -433,6 +436,37 @@ static struct value run_vstr(struct call *call)
         at += (size_t)write_number(text + at, format, v.v[i]);
     }
     return value_string(text ? text : "", at);
+}
+
+/* Days since the year 2000, as strftime writes them, in Greenwich. */
+static struct value run_datetime(struct call *call)
+{
+    enum { LONGEST = 1024, DAYS = 2900000 };
+    static const int64_t start = 946684800;
+    double days = argument(call, 0);
+    struct string format = call->count > 1
+                               ? string_argument(call, 1)
+                               : (struct string){"%Y-%m-%d %H:%M:%SZ", 18};
+    char text[LONGEST];
+    struct tm tm;
+    if (!(fabs(days) <= DAYS)) {
+        return domain_error(call, days);
+    }
+    time_t seconds = (time_t)(start + (int64_t)floor(days * 86400 + 0.5));
+    gmtime_r(&seconds, &tm);
+    tm.tm_isdst = -1; /* no zone is told                         */
+    tm.tm_zone = "";
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    size_t length = strftime(text, sizeof text, format.text, &tm);
+#pragma GCC diagnostic pop
+    if (length == 0) {
+        parser_error(call->parser, call->at,
+                     "datetime: this format gives nothing, or more than %d "
+                     "bytes",
+                     LONGEST);
+    }
+    return copy_string(call, text, length);
 }
 
 static struct value run_strcmp(struct call *call)
@@ -515,6 +549,7 @@ static const struct builtin table[] = {
     {"concat", "s", 1, ANY, NULL, run_concat},
     {"cos", "f", 1, 1, cos, NULL},
     {"cosh", "f", 1, 1, cosh, NULL},
+    {"datetime", "fs", 1, 2, NULL, run_datetime},
     {"degrees", "f", 1, 1, degrees, NULL},
     {"div", "f", 2, 2, NULL, run_div},
     {"exp", "f", 1, 1, exp, NULL},
@@ -607,8 +642,9 @@ static bool convert(const struct call *call, int i, char kind, struct value *to)
     }
     *to = kind == 'v' && number ? value_promote(*value, 3) : *value;
     return fits || parser_error(call->parser, call->at,
-                                "argument %d of %s must be %s, not a %s", i + 1,
-                                call->word, wanted, value_name(value));
+                                "argument %d of %s must be %s, not a %s%s",
+                                i + 1, call->word, wanted, value_name(value),
+                                kind == 'v' && number ? " of 4 terms" : "");
 }
 
 /* The arguments lie on the parser's stack, where they may be changed until

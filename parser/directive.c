@@ -69,6 +69,16 @@ void directive_used(struct expander *expander, const struct token *token)
     }
 }
 
+static bool seek_item(struct expander *expander, const struct name *array,
+                      enum item_use use, struct location at)
+{
+    struct seek seek = {.item = symbols_find(array), .use = use};
+    return seek.item && seek.item->kind == VALUE_ARRAY
+               ? item_seek(expander, &seek, at)
+               : parser_error(expander->parser, at, "'%.40s' is not an array",
+                              array->text);
+}
+
 static bool declare(struct expander *expander, const struct token *token)
 {
     struct deprecation *deprecated;
@@ -81,12 +91,7 @@ static bool declare(struct expander *expander, const struct token *token)
         return false;
     }
     if (expand_peek(expander)->kind == '[') {
-        struct value *array = symbols_find(name);
-        struct seek seek = {.item = array, .use = ITEM_DECLARE};
-        return array && array->kind == VALUE_ARRAY
-                   ? item_seek(expander, &seek, at)
-                   : parser_error(expander->parser, at,
-                                  "'%.40s' is not an array", name->text);
+        return seek_item(expander, name, ITEM_DECLARE, at);
     }
     struct pending *pending = begin_value(expander, at);
     if (!pending) {
@@ -159,6 +164,9 @@ static bool undefine(struct expander *expander)
     struct name *name = expand_need_name(expander);
     if (!name || !directive_may_declare(expander, name, at)) {
         return false;
+    }
+    if (expand_peek(expander)->kind == '[') {
+        return seek_item(expander, name, ITEM_UNDEF, at);
     }
     if (!name->symbol) {
         parser_warn(expander->parser, at, "'%.40s' is not declared",

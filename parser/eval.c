@@ -245,12 +245,9 @@ void eval_data(struct parser *parser, struct data_run run, struct location at)
 
 /* ---- colors ------------------------------------------------------------ */
 
-/* IEC 61966-2-1: the linear value of an sRGB channel; odd below 0. */
+/* IEC 61966-2-1: the linear value of an sRGB channel. */
 static double linear(double x)
 {
-    if (x < 0) {
-        return -linear(-x);
-    }
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 

@@ -54,7 +54,7 @@ enum use {
 /* What is done with an array's item once its last index is known. */
 enum item_use {
     ITEM_TOKEN, ITEM_DECLARE, ITEM_DEFINED, ITEM_IFDEF, ITEM_ARGUMENT,
-    ITEM_READ
+    ITEM_READ, ITEM_UNDEF
 };
 
 /* An array's item being sought, index by index. */

@@ -4,6 +4,7 @@
  * wants a token of that kind: so items are found before the grammar. */
 #include "parser/expand.h"
 #include "parser/report.h"
+#include <ctype.h>
 #include <math.h>
 
 static bool begin_index(struct expander *expander, const struct seek *seek,
@@ -49,6 +50,10 @@ static bool found(struct expander *expander, const struct seek *seek,
     case ITEM_DEFINED:
     case ITEM_IFDEF:
         return use_defined(expander, seek, set, at);
+    case ITEM_UNDEF:
+        seek->item->kind = VALUE_NONE;
+        expand_take(expander, ';');
+        return true;
     case ITEM_READ:
         return fileio_item(expander, seek, at);
     case ITEM_ARGUMENT:
@@ -106,20 +111,33 @@ bool item_finish(struct expander *expander, const struct pending *pending)
                   : found(expander, &seek, pending->at);
 }
 
+/* Takes a word of the language, which is never defined. */
+static bool take_reserved(struct expander *expander)
+{
+    const struct token *token = expand_peek(expander);
+    const char *word = report_spelling(expander->parser, token_location(token));
+    return token->kind != TOK_IDENTIFIER && token->kind != TOK_END &&
+           isalpha((unsigned char)*word) && expand_take(expander, token->kind);
+}
+
 bool item_defined(struct expander *expander, enum item_use use, uint32_t opener,
                   struct location at)
 {
+    struct seek seek = {.use = use, .opener = opener};
     if (!expand_need(expander, '(')) {
         return false;
+    }
+    if (take_reserved(expander)) {
+        return use_defined(expander, &seek, false, at);
     }
     struct name *name = expand_need_name(expander);
     if (!name) {
         return false;
     }
-    struct seek seek = {
-        .item = symbols_find(name), .use = use, .opener = opener};
+    seek.item = symbols_find(name);
     if (expand_peek(expander)->kind != '[') {
-        return use_defined(expander, &seek, seek.item, at);
+        bool defined = seek.item && !name->symbol->reserved;
+        return use_defined(expander, &seek, defined, at);
     }
     if (!seek.item || seek.item->kind != VALUE_ARRAY) {
         return parser_error(expander->parser, at, "'%.40s' is not an array",

@@ -8,13 +8,17 @@
 #include "parser/stream.h"
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static const double VERSION_DEFAULT = 3.7;
 
 /* ---- predeclared names ------------------------------------------------- */
 
+/* What may be done with a name: POV-Ray has some as words, some as names. */
+enum predeclared { RESERVED, CONSTANT, VARIABLE };
+
 static bool predeclare(struct parser *parser, const char *word,
-                       struct value value, bool constant)
+                       struct value value, enum predeclared how)
 {
     struct name *name = symbols_name(&parser->symbols, word, strlen(word));
     struct symbol *symbol = name ? symbols_declare(&parser->symbols, name)
@@ -22,7 +26,8 @@ static bool predeclare(struct parser *parser, const char *word,
     if (!symbol) {
         return report_no_memory(parser);
     }
-    symbol->constant = constant;
+    symbol->constant = how != VARIABLE;
+    symbol->reserved = how == RESERVED;
     symbol->value = value;
     return true;
 }
@@ -42,33 +47,43 @@ static double brume_version(void)
     return major + minor / scale;
 }
 
+static double days_since_2000(void)
+{
+    static const double start = 946684800, day = 86400;
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return ((double)now.tv_sec - start) / day;
+}
+
 static bool predeclare_floats(struct parser *parser)
 {
     const struct parse_ambient *ambient = &parser->in->ambient;
     const struct {
         const char *word;
         double value;
-    } floats[] = {{"pi", 3.14159265358979323846},
-                  {"true", 1},
-                  {"yes", 1},
-                  {"on", 1},
-                  {"false", 0},
-                  {"no", 0},
-                  {"off", 0},
-                  {"version", parser->version},
-                  {"clock", ambient->clock},
-                  {"clock_delta", ambient->clock_delta},
-                  {"clock_on", ambient->clock_on},
-                  {"frame_number", ambient->frame_number},
-                  {"initial_clock", ambient->initial_clock},
-                  {"final_clock", ambient->final_clock},
-                  {"initial_frame", ambient->initial_frame},
-                  {"final_frame", ambient->final_frame},
-                  {"image_width", ambient->image_width},
-                  {"image_height", ambient->image_height}};
+        enum predeclared how;
+    } floats[] = {{"pi", 3.14159265358979323846, RESERVED},
+                  {"true", 1, RESERVED},
+                  {"yes", 1, RESERVED},
+                  {"on", 1, RESERVED},
+                  {"false", 0, RESERVED},
+                  {"no", 0, RESERVED},
+                  {"off", 0, RESERVED},
+                  {"version", parser->version, RESERVED},
+                  {"now", days_since_2000(), RESERVED},
+                  {"clock", ambient->clock, RESERVED},
+                  {"clock_delta", ambient->clock_delta, CONSTANT},
+                  {"clock_on", ambient->clock_on, RESERVED},
+                  {"frame_number", ambient->frame_number, CONSTANT},
+                  {"initial_clock", ambient->initial_clock, CONSTANT},
+                  {"final_clock", ambient->final_clock, CONSTANT},
+                  {"initial_frame", ambient->initial_frame, CONSTANT},
+                  {"final_frame", ambient->final_frame, CONSTANT},
+                  {"image_width", ambient->image_width, CONSTANT},
+                  {"image_height", ambient->image_height, CONSTANT}};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
         if (!predeclare(parser, floats[i].word, value_float(floats[i].value),
-                        true)) {
+                        floats[i].how)) {
             return false;
         }
     }
@@ -86,7 +101,8 @@ static bool predeclare_vectors(struct parser *parser)
                    {"u", 2, {1, 0}},    {"v", 2, {0, 1}}};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         if (!predeclare(parser, vectors[i].word,
-                        value_vector(vectors[i].terms, vectors[i].v), true)) {
+                        value_vector(vectors[i].terms, vectors[i].v),
+                        RESERVED)) {
             return false;
         }
     }
@@ -99,11 +115,14 @@ static bool predeclare_given(struct parser *parser)
     const struct parse_input *in = parser->in;
     for (size_t i = 0; i < in->declares; i++) {
         if (!predeclare(parser, in->declare[i].name,
-                        value_float(in->declare[i].value), false)) {
+                        value_float(in->declare[i].value), VARIABLE)) {
             return false;
         }
     }
-    return predeclare(parser, "brume", value_float(brume_version()), false);
+    return predeclare(parser, "brume", value_float(brume_version()),
+                      VARIABLE) &&
+           predeclare(parser, "input_file_name",
+                      value_string(in->path, strlen(in->path)), CONSTANT);
 }
 
 /* ---- the scene --------------------------------------------------------- */

@@ -34,6 +34,8 @@ struct symbol {
     struct symbol *next;            /* in its scope                        */
     uint32_t level;                 /* of its scope; 0 is global           */
     bool constant;                  /* predeclared: cannot be declared     */
+    bool reserved;                  /* and a word of POV-Ray's: never said
+                                       to be defined                       */
     bool removed;                   /* by #undef                           */
     struct deprecation *deprecated; /* or NULL                             */
     struct value *refers;           /* of a macro's parameter that was given

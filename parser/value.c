@@ -106,7 +106,7 @@ bool value_is_true(double x)
 
 static bool equal(double a, double b)
 {
-    return a == b || fabs(a - b) < EPSILON;
+    return a == b || fabs(a - b) <= EPSILON;
 }
 
 static double combine(enum value_operator op, double a, double b)
