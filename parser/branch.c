@@ -278,27 +278,33 @@ static bool finish_range(struct expander *expander,
     return take_clause(expander, pending, inside);
 }
 
-static bool finish_condition(struct expander *expander,
-                             const struct pending *pending)
+static bool decide(struct expander *expander, enum use use, uint32_t opener,
+                   double value)
 {
-    struct parser *parser = expander->parser;
-    uint32_t opener = pending->branch.opener;
-    double value = eval_float(parser, &expander->result, pending->at).v[0];
-    if (parser->failed) {
-        return false;
-    }
-    switch (pending->use) {
+    switch (use) {
     case USE_SWITCH:
         return finish_switch(expander, opener, value);
-    case USE_CASE:
-        value -= innermost(expander)->value;
-        return take_clause(expander, pending, !value_is_true(value));
     case USE_WHILE:
         return value_is_true(value) ? count_iteration(expander, opener)
                                     : (leave(expander, opener), true);
     default:
         return choose(expander, opener, value_is_true(value));
     }
+}
+
+static bool finish_condition(struct expander *expander,
+                             const struct pending *pending)
+{
+    struct parser *parser = expander->parser;
+    double value = eval_float(parser, &expander->result, pending->at).v[0];
+    if (parser->failed) {
+        return false;
+    }
+    if (pending->use == USE_CASE) {
+        value -= innermost(expander)->value;
+        return take_clause(expander, pending, !value_is_true(value));
+    }
+    return decide(expander, pending->use, pending->branch.opener, value);
 }
 
 bool branch_finish(struct expander *expander, const struct pending *pending)
@@ -357,6 +363,19 @@ static bool run_break(struct expander *expander, const struct token *token)
     return true;
 }
 
+/* A condition of floats alone is decided at once. */
+static bool run_condition(struct expander *expander, enum use use,
+                          uint32_t opener)
+{
+    double value;
+    const struct token *end = expand_scalar(expander, '(', true, &value);
+    if (!end || end->kind != ')') {
+        return begin_condition(expander, use, opener);
+    }
+    return expand_skip_to(expander, end + 1) &&
+           decide(expander, use, opener, value);
+}
+
 static bool run_opener(struct expander *expander, const struct token *token,
                        uint32_t opener)
 {
@@ -366,11 +385,11 @@ static bool run_opener(struct expander *expander, const struct token *token,
     }
     switch (token->kind) {
     case TOK_HASH_IF:
-        return begin_condition(expander, USE_IF, opener);
+        return run_condition(expander, USE_IF, opener);
     case TOK_HASH_WHILE:
-        return begin_condition(expander, USE_WHILE, opener);
+        return run_condition(expander, USE_WHILE, opener);
     case TOK_HASH_SWITCH:
-        return begin_condition(expander, USE_SWITCH, opener);
+        return run_condition(expander, USE_SWITCH, opener);
     case TOK_HASH_FOR:
         return begin_for(expander, opener, at);
     default:

@@ -41,24 +41,30 @@ struct frame *build_around(struct parser *parser)
     return builder->frames < 2 || around->kind == BUILD_KINDS ? NULL : around;
 }
 
+static bool make_room(struct parser *parser, struct location at)
+{
+    struct builder *builder = parser->builder;
+    struct brume_error err = {0};
+    struct frame *frames = memory_grow(builder->frame, &builder->frame_room,
+                                       builder->frames + 1, sizeof *frames,
+                                       &err);
+    if (!frames)
+        return parser_relay(parser, at, &err);
+    builder->frame = frames;
+    return true;
+}
+
 static struct frame *push(struct parser *parser, enum build_kind kind,
                           struct location at)
 {
     struct builder *builder = parser->builder;
-    struct brume_error err = {0};
 
-    if (parser->failed)
+    if (parser->failed ||
+        (builder->frames == builder->frame_room && !make_room(parser, at)))
         return NULL;
-    struct frame *frames = memory_grow(builder->frame, &builder->frame_room,
-                                       builder->frames + 1, sizeof *frames,
-                                       &err);
-    if (!frames) {
-        parser_relay(parser, at, &err);
-        return NULL;
-    }
-    builder->frame = frames;
-    frames[builder->frames] = (struct frame){.kind = kind, .at = at};
-    return &frames[builder->frames++];
+    struct frame *frame = &builder->frame[builder->frames++];
+    *frame = (struct frame){.kind = kind, .at = at};
+    return frame;
 }
 
 /* A frame of no kind parts the value from the statements around. */

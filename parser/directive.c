@@ -15,13 +15,45 @@ bool directive_may_declare(struct expander *expander, const struct name *name,
                         name->text);
 }
 
-/* The '=' and the value of what is declared; NULL: an error. */
-static struct pending *begin_value(struct expander *expander,
-                                   struct location at)
+static bool assign(struct expander *expander, const struct target *target,
+                   const struct value *value)
 {
-    return expand_need(expander, '=')
-               ? expand_begin(expander, TOK_MODE_VALUE, USE_DECLARE, at)
-               : NULL;
+    struct symbols *symbols = &expander->parser->symbols;
+    if (target->item) {
+        *target->item = *value;
+        return true;
+    }
+    struct symbol *symbol = target->local
+                                ? symbols_local(symbols, target->name)
+                                : symbols_declare(symbols, target->name);
+    if (!symbol) {
+        return report_no_memory(expander->parser);
+    }
+    symbol->deprecated = target->deprecated;
+    *symbol_value(symbol) = *value;
+    return true;
+}
+
+/* The '=' and the value. */
+static bool begin_value(struct expander *expander, const struct target *target,
+                        struct location at)
+{
+    double x;
+    if (!expand_need(expander, '=')) {
+        return false;
+    }
+    const struct token *end = expand_scalar(expander, 0, false, &x);
+    if (end && end->kind == ';') {
+        struct value value = value_float(x);
+        return expand_skip_to(expander, end + 1) &&
+               assign(expander, target, &value);
+    }
+    struct pending *pending = expand_begin(expander, TOK_MODE_VALUE,
+                                           USE_DECLARE, at);
+    if (pending) {
+        pending->target = *target;
+    }
+    return pending;
 }
 
 bool directive_take_word(struct expander *expander, const char *word)
@@ -93,25 +125,16 @@ static bool declare(struct expander *expander, const struct token *token)
     if (expand_peek(expander)->kind == '[') {
         return seek_item(expander, name, ITEM_DECLARE, at);
     }
-    struct pending *pending = begin_value(expander, at);
-    if (!pending) {
-        return false;
-    }
-    pending->target.name = name;
-    pending->target.local = token->kind == TOK_HASH_LOCAL;
-    pending->target.deprecated = deprecated;
-    return true;
+    struct target target = {.name = name,
+                            .local = token->kind == TOK_HASH_LOCAL,
+                            .deprecated = deprecated};
+    return begin_value(expander, &target, at);
 }
 
 bool directive_declare_item(struct expander *expander, struct value *item,
                             struct location at)
 {
-    struct pending *pending = begin_value(expander, at);
-    if (!pending) {
-        return false;
-    }
-    pending->target.item = item;
-    return true;
+    return begin_value(expander, &(struct target){.item = item}, at);
 }
 
 /* As POV-Ray does from 3.5 on. */
@@ -140,22 +163,9 @@ static bool check_semicolon(struct expander *expander,
 static bool finish_declare(struct expander *expander,
                            const struct pending *pending)
 {
-    struct symbols *symbols = &expander->parser->symbols;
-    struct value *item = pending->target.item;
-    if (!item) {
-        struct symbol *symbol = pending->target.local
-                                    ? symbols_local(symbols,
-                                                    pending->target.name)
-                                    : symbols_declare(symbols,
-                                                      pending->target.name);
-        if (!symbol) {
-            return report_no_memory(expander->parser);
-        }
-        symbol->deprecated = pending->target.deprecated;
-        item = symbol_value(symbol);
-    }
-    *item = expander->result;
-    return check_semicolon(expander, item);
+    const struct value *value = &expander->result;
+    return assign(expander, &pending->target, value) &&
+           check_semicolon(expander, value);
 }
 
 static bool undefine(struct expander *expander)

@@ -69,6 +69,14 @@ struct seek {
     };
 };
 
+/* What a value is declared to be. */
+struct target {
+    struct name *name;
+    struct value *item;         /* of an array; NULL: the name             */
+    bool local;
+    struct deprecation *deprecated;
+};
+
 /* A value being parsed by a parser of its own, inside of another one. */
 struct pending {
     enum use use;
@@ -78,16 +86,12 @@ struct pending {
     size_t start, passed;       /* of the frame's cursor when it began     */
     size_t depth;               /* brackets that are open in it            */
     size_t braces;              /* of them                                 */
+    int last;                   /* the token that was pushed last          */
     bool open_ended;            /* ends where no token fits any more       */
     bool dropping;              /* tokens are lost after an error,         */
     size_t drop_depth;          /* within so many brackets                 */
     union {
-        struct {
-            struct name *name;          /* USE_DECLARE                     */
-            struct value *item;         /* of an array; NULL: the name     */
-            bool local;
-            struct deprecation *deprecated;
-        } target;
+        struct target target;           /* USE_DECLARE                     */
         struct seek seek;               /* USE_INDEX                       */
         struct name *file;              /* USE_FOPEN                       */
         struct {
@@ -196,6 +200,14 @@ bool recover_undeclared(struct expander *expander, struct name *name,
                         struct location at);
 /* Makes the parse go on after an error was reported; false: it ends here. */
 bool recover_after_error(struct expander *expander);
+
+/* Reads floats alone (scalar.h) from the next token on, which must be `begin`
+ * unless that is 0, and gives the token behind them. NULL: they are for the
+ * grammar. Nothing is taken until expand_skip_to, which goes to a token of the
+ * same chunk and counts those before it. */
+const struct token *expand_scalar(const struct expander *expander, int begin,
+                                  bool full, double *value);
+bool expand_skip_to(struct expander *expander, const struct token *token);
 
 /* ---- directive.c ---- */
 

@@ -2,6 +2,7 @@
 #include "lib/timer.h"
 #include "parser/build.h"
 #include "parser/report.h"
+#include "parser/scalar.h"
 #include <ctype.h>
 
 /* Values in values; each holds a parser of its own. */
@@ -124,6 +125,7 @@ struct pending *expand_begin(struct expander *expander, int mode, enum use use,
                                 .frames = expander->frames,
                                 .start = expand_frame(expander)->cursor.next,
                                 .passed = expand_frame(expander)->cursor.passed,
+                                .last = mode,
                                 .open_ended = mode == TOK_MODE_VALUE};
     SCENE_YYSTYPE none = {.count = 0};
     scene_yypush_parse(state, mode, &none, &at, parser);
@@ -240,6 +242,7 @@ static bool push(struct expander *expander, int kind,
         expander->place = at;
     }
     count_brackets(pending, kind);
+    pending->last = kind;
     int status = scene_yypush_parse(pending->state, kind, meaning, &at, parser);
     if (parser->failed || status == YYPUSH_MORE) {
         return !parser->failed;
@@ -261,6 +264,29 @@ void expand_hold(struct expander *expander, const struct value *value,
     expander->held = true;
     expander->hold_value = *value;
     expander->hold_at = at;
+}
+
+/* ---- floats alone ------------------------------------------------------ */
+
+const struct token *expand_scalar(const struct expander *expander, int begin,
+                                  bool full, double *value)
+{
+    const struct cursor *cursor = &expand_frame(expander)->cursor;
+    const struct token *token = &cursor->chunk->token[cursor->next];
+    if (expander->held || cursor->data || (begin && token->kind != begin)) {
+        return NULL;
+    }
+    return scalar_read(token + (begin != 0), full, value);
+}
+
+bool expand_skip_to(struct expander *expander, const struct token *token)
+{
+    struct cursor *cursor = &expand_frame(expander)->cursor;
+    size_t next = (size_t)(token - cursor->chunk->token);
+    expander->tokens += next - cursor->next - 1;
+    expander->place = token_location(token - 1);
+    cursor_jump(cursor, next);
+    return count_token(expander, expander->place);
 }
 
 /* ---- names ------------------------------------------------------------- */
@@ -470,6 +496,14 @@ static bool name_fits(const struct pending *pending, const struct token *token)
                        accepts(pending, token->name->keyword->kind);
 }
 
+/* Whether a value may end with the token: after these it never does, and there
+ * are many of them. */
+static bool may_end(int last)
+{
+    return last != TOK_MODE_VALUE && last != '+' && last != '-' &&
+           last != '*' && last != '/';
+}
+
 /* Whether the value is complete and the next token no part of it. */
 static bool value_ends(const struct expander *expander,
                        const struct pending *pending)
@@ -481,7 +515,7 @@ static bool value_ends(const struct expander *expander,
         return !accepts(pending, kind_of(&expander->hold_value)) &&
                accepts(pending, TOK_END);
     }
-    if (kind == TOK_BAD) {
+    if (kind == TOK_BAD || !may_end(pending->last)) {
         return false;
     }
     if (kind == TOK_END && expander->frames > pending->frames) {

@@ -36,6 +36,11 @@ bool grammar_accepts(struct scene_yypstate *state, int token);
 }
 
 %code {
+/* Values are taken apart into registers and put together again by gcc, and
+ * each time the processor waits for the parts to reach memory. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-sra")
+#endif
 #include "parser/expander.h"
 #include "parser/report.h"
 

@@ -18,12 +18,6 @@ static bool begin_index(struct expander *expander, const struct seek *seek,
     return pending;
 }
 
-bool item_seek(struct expander *expander, const struct seek *seek,
-               struct location at)
-{
-    return begin_index(expander, seek, at);
-}
-
 /* ---- what an item is wanted for ---------------------------------------- */
 
 static bool use_defined(struct expander *expander, const struct seek *seek,
@@ -75,10 +69,10 @@ static bool found(struct expander *expander, const struct seek *seek,
 
 /* Takes one index into account; false: out of range. */
 static bool add_index(struct expander *expander, struct seek *seek,
-                      struct location at)
+                      double number, struct location at)
 {
     const struct array *array = seek->item->array;
-    double index = trunc(expander->result.v[0]);
+    double index = trunc(number);
     uint32_t size = array->size[seek->dimension];
     if (!(index >= 0 && index < size)) {
         return parser_error(expander->parser, at,
@@ -88,27 +82,57 @@ static bool add_index(struct expander *expander, struct seek *seek,
     }
     seek->offset = seek->offset * size + (uint32_t)index;
     seek->dimension++;
+    if (seek->dimension == array->rank) {
+        seek->item = &array->item[seek->offset];
+        seek->dimension = 0;
+        seek->offset = 0;
+    }
     return true;
+}
+
+/* Whether one more index must follow, or may: an item may be an array. */
+static bool has_more(struct expander *expander, const struct seek *seek)
+{
+    return seek->dimension > 0 || (seek->item->kind == VALUE_ARRAY &&
+                                   expand_peek(expander)->kind == '[');
+}
+
+/* Where the end of the item may lead to the next item of a list, indices are
+ * left to the grammar, so that nothing recurses over the list. */
+static bool is_alone(const struct seek *seek)
+{
+    return seek->use != ITEM_ARGUMENT && seek->use != ITEM_READ;
+}
+
+bool item_seek(struct expander *expander, const struct seek *begun,
+               struct location at)
+{
+    struct seek seek = *begun;
+    do {
+        double index;
+        const struct token *end = is_alone(&seek) ? expand_scalar(expander, '[',
+                                                                  false, &index)
+                                                  : NULL;
+        if (!end || end->kind != ']') {
+            return begin_index(expander, &seek, at);
+        }
+        if (!expand_skip_to(expander, end + 1) ||
+            !add_index(expander, &seek, index, at)) {
+            return false;
+        }
+    } while (has_more(expander, &seek));
+    return found(expander, &seek, at);
 }
 
 bool item_finish(struct expander *expander, const struct pending *pending)
 {
     struct seek seek = pending->seek;
     if (!expand_return(expander, pending->frames, pending->at) ||
-        !add_index(expander, &seek, pending->at)) {
+        !add_index(expander, &seek, expander->result.v[0], pending->at)) {
         return false;
     }
-    const struct array *array = seek.item->array;
-    if (seek.dimension < array->rank) {
-        return begin_index(expander, &seek, pending->at);
-    }
-    seek.item = &array->item[seek.offset];
-    seek.dimension = 0;
-    seek.offset = 0;
-    bool deeper = seek.item->kind == VALUE_ARRAY &&
-                  expand_peek(expander)->kind == '[';
-    return deeper ? begin_index(expander, &seek, pending->at)
-                  : found(expander, &seek, pending->at);
+    return has_more(expander, &seek) ? item_seek(expander, &seek, pending->at)
+                                     : found(expander, &seek, pending->at);
 }
 
 /* Takes a word of the language, which is never defined. */

@@ -204,7 +204,7 @@ static bool begin_argument(struct expander *expander)
 }
 
 /* An identifier alone is passed by reference, everything else by value. */
-enum found { FOUND_REFERENCE, FOUND_OTHER, FOUND_ERROR };
+enum found { FOUND_TAKEN, FOUND_OTHER, FOUND_ERROR };
 
 static enum found find_reference(struct expander *expander)
 {
@@ -223,7 +223,7 @@ static enum found find_reference(struct expander *expander)
     }
     expand_skip(expander);
     directive_used(expander, token);
-    return add_actual(expander, value, value) ? FOUND_REFERENCE : FOUND_ERROR;
+    return add_actual(expander, value, value) ? FOUND_TAKEN : FOUND_ERROR;
 }
 
 /* `Array[`: an item, which is passed by reference if nothing follows it. */
@@ -234,6 +234,20 @@ static bool seeks_item(struct expander *expander)
                                     ? symbols_find(token->name)
                                     : NULL;
     return value && value->kind == VALUE_ARRAY && token[1].kind == '[';
+}
+
+/* An argument that is made of floats alone. */
+static enum found find_float(struct expander *expander)
+{
+    double x;
+    const struct token *end = expand_scalar(expander, 0, false, &x);
+    if (!end || !ends_argument(end)) {
+        return FOUND_OTHER;
+    }
+    struct value value = value_float(x);
+    bool taken = expand_skip_to(expander, end) &&
+                 add_actual(expander, &value, NULL);
+    return taken ? FOUND_TAKEN : FOUND_ERROR;
 }
 
 static bool read_arguments(struct expander *expander)
@@ -259,7 +273,8 @@ static bool read_arguments(struct expander *expander)
             return item_seek(expander, &seek, token_location(token));
         }
         enum found found = find_reference(expander);
-        if (found != FOUND_REFERENCE) {
+        found = found == FOUND_OTHER ? find_float(expander) : found;
+        if (found != FOUND_TAKEN) {
             return found == FOUND_OTHER && begin_argument(expander);
         }
     }

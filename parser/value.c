@@ -51,13 +51,6 @@ const char *value_name(const struct value *value)
     return kind_name[value->kind];
 }
 
-struct value value_float(double x)
-{
-    struct value value = {.kind = VALUE_NUMBER, .terms = 1};
-    value.v[0] = x;
-    return value;
-}
-
 struct value value_vector(int terms, const double *v)
 {
     struct value value = {.kind = VALUE_NUMBER, .terms = terms};
@@ -109,7 +102,7 @@ static bool equal(double a, double b)
     return a == b || fabs(a - b) <= EPSILON;
 }
 
-static double combine(enum value_operator op, double a, double b)
+double value_operate(enum value_operator op, double a, double b)
 {
     switch (op) {
     /* clang-format off */
@@ -134,12 +127,16 @@ bool value_combine(enum value_operator op, const struct value *a,
                    const struct value *b, struct value *out)
 {
     int terms = a->terms > b->terms ? a->terms : b->terms;
+    if (terms == 1) {
+        *out = value_float(value_operate(op, a->v[0], b->v[0]));
+        return op != VALUE_DIVIDE || b->v[0] != 0;
+    }
     struct value left = value_promote(*a, terms);
     struct value right = value_promote(*b, terms);
     bool sound = true;
     for (int i = 0; i < terms; i++) {
         sound = sound && (op != VALUE_DIVIDE || right.v[i] != 0);
-        left.v[i] = combine(op, left.v[i], right.v[i]);
+        left.v[i] = value_operate(op, left.v[i], right.v[i]);
     }
     *out = left;
     return sound;

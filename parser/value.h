@@ -77,7 +77,13 @@ struct array {
  * "float", "vector", "color", "pigment identifier" without "identifier". */
 const char *value_name(const struct value *value);
 
-struct value value_float(double x);
+static inline struct value value_float(double x)
+{
+    struct value value = {.kind = VALUE_NUMBER, .terms = 1};
+    value.v[0] = x;
+    return value;
+}
+
 struct value value_vector(int terms, const double *v);
 struct value value_color(double red, double green, double blue,
                          double filter, double transmit);
@@ -97,6 +103,7 @@ enum value_operator {
     VALUE_LESS, VALUE_LESS_EQUAL, VALUE_EQUAL, VALUE_NOT_EQUAL,
     VALUE_GREATER_EQUAL, VALUE_GREATER, VALUE_AND, VALUE_OR
 };
+double value_operate(enum value_operator op, double a, double b);
 /* False when a term was divided by zero: that term is then infinite, as in
  * POV-Ray, and the rest is computed. */
 bool value_combine(enum value_operator op, const struct value *a,
