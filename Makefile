@@ -82,7 +82,7 @@ $(B)/%.o: %.c
 
 # The scanner and the grammar of the scene language.
 $(B)/parser/lexer.c: parser/lexer.l
-	$(call run,flex,flex -o $@ $<)
+	$(call run,flex,flex -Cfe -o $@ $<)
 
 $(B)/parser/grammar.c $(B)/parser/grammar.h &: parser/grammar.y
 	$(call run,bison,bison -Wall -Werror -o $(B)/parser/grammar.c \

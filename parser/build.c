@@ -206,7 +206,8 @@ static enum build_kind kind_of(const char *word, const struct frame *around)
 
     for (int i = 0; i < BUILD_KINDS; i++) {
         enum build_kind kind = (enum build_kind)i;
-        if (strcmp(statements[i]->word, word))
+        const char *begins = statements[i]->word;
+        if (*begins != *word || strcmp(begins, word))
             continue;
         if (around && is_within(statements[i], around->kind))
             return kind;

@@ -64,7 +64,7 @@ size_t data_measure(const char *text)
 {
     enum { WORTH = 6 }; /* bytes: a short vector                   */
     const char *end = text;
-    for (const char *c = skip_blanks(text);; c = skip_blanks(c + 1)) {
+    for (const char *c = text;; c = skip_blanks(c + 1)) {
         const char *item = *c == '<' ? skip_vector(c + 1) : skip_number(c);
         if (!item)
             break;
@@ -76,6 +76,12 @@ size_t data_measure(const char *text)
             break;
     }
     return end - text >= WORTH ? (size_t)(end - text) : 0;
+}
+
+size_t data_measure_vector(const char *text)
+{
+    const char *end = *text == '<' ? skip_vector(text + 1) : NULL;
+    return end ? (size_t)(end - text) : 0;
 }
 
 /* ---- reading ----------------------------------------------------------- */

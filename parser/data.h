@@ -3,7 +3,8 @@
  *
  * A run is one TOK_DATA to the scanner, so that a text of millions of numbers
  * needs no memory for its tokens. It begins behind a '{' or ',' and ends before
- * a ',' or '}', so that each of its items is a whole value. */
+ * a ',' or '}', so that each of its items is a whole value; or it is one
+ * vector. */
 #ifndef PARSER_DATA_H
 #define PARSER_DATA_H
 #include <stddef.h>
@@ -14,9 +15,12 @@ struct data_run {
     const char *text, *end;
 };
 
-/* The bytes of the run that begins at `text`, which ends with NUL; 0: none
- * that is worth the name. */
+/* The bytes of the run whose first item begins at `text`, which ends with NUL;
+ * 0: none that is worth the name. */
 size_t data_measure(const char *text);
+/* The same for a run that is one vector, of 2 to VALUE_TERMS terms: whatever
+ * stands around it, it is an operand. */
+size_t data_measure_vector(const char *text);
 
 /* The next token of a run at or behind *at, which moves behind it; returns
  * where it begins, or NULL: the run ends at `end`. */

@@ -594,16 +594,6 @@ static bool run_token(struct expander *expander)
     return push(expander, token->kind, &meaning, token_location(token));
 }
 
-/* A run of plain data as a whole, where the grammar takes one. */
-static struct token *peek_run(const struct expander *expander,
-                              const struct pending *pending)
-{
-    struct token *run = expander->held
-                            ? NULL
-                            : cursor_run(&expand_frame(expander)->cursor);
-    return run && grammar_accepts(pending->state, TOK_DATA) ? run : NULL;
-}
-
 static bool push_run(struct expander *expander, const struct token *run)
 {
     struct cursor *cursor = &expand_frame(expander)->cursor;
@@ -613,12 +603,52 @@ static bool push_run(struct expander *expander, const struct token *run)
     return push(expander, TOK_DATA, &meaning, token_location(run));
 }
 
+/* A run that is one vector. */
+static bool push_vector(struct expander *expander, const struct token *run)
+{
+    struct cursor *cursor = &expand_frame(expander)->cursor;
+    const char *text = cursor->chunk->text + run->offset;
+    struct data_run data = {text, text + run->length};
+    SCENE_YYSTYPE meaning;
+    data_item(&data, &meaning.value);
+    struct location at = token_location(run);
+    cursor_jump(cursor, cursor->next + 1);
+    expander_spend(expander->parser, 2 * meaning.value.terms, at);
+    bool going = push(expander, TOK_VECTOR_ID, &meaning, at);
+    expander->place.offset = at.offset + run->length - 1;
+    return going;
+}
+
+/* Pushes a run of plain data as a whole, where the grammar takes one; false:
+ * there is none, or it is for others token by token. */
+static bool take_run(struct expander *expander, bool *going)
+{
+    const struct pending *pending = innermost(expander);
+    const struct token *run = expander->held
+                                  ? NULL
+                                  : cursor_run(&expand_frame(expander)->cursor);
+    if (!run) {
+        return false;
+    }
+    if (accepts(pending, TOK_DATA)) {
+        *going = push_run(expander, run);
+        return true;
+    }
+    const char *text = expand_frame(expander)->cursor.chunk->text;
+    bool vector = data_measure_vector(text + run->offset) == run->length;
+    if (vector && accepts(pending, TOK_VECTOR_ID)) {
+        *going = push_vector(expander, run);
+        return true;
+    }
+    return false;
+}
+
 static bool step(struct expander *expander)
 {
     const struct pending *pending = innermost(expander);
-    const struct token *run = peek_run(expander, pending);
-    if (run) {
-        return push_run(expander, run);
+    bool going;
+    if (take_run(expander, &going)) {
+        return going;
     }
     if (pending->open_ended && pending->depth == 0 &&
         value_ends(expander, pending)) {

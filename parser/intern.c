@@ -2,14 +2,19 @@
 
 #include <string.h>
 
-/* FNV-1a, 64 bits (Fowler, Noll, Vo). */
+/* FNV-1a (Fowler, Noll, Vo) with eight bytes for one, which sixty-four bits of
+ * hash allow; the fold lets the low bits depend on the high ones. */
 static uint64_t hash_of(const void *bytes, size_t size)
 {
     const unsigned char *byte = bytes;
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
 
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * UINT64_C(0x100000001b3);
+    for (size_t i = 0; i < size; i += 8) {
+        uint64_t word = 0;
+        memcpy(&word, byte + i, size - i < 8 ? size - i : 8);
+        hash = (hash ^ word) * UINT64_C(0x100000001b3);
+        hash ^= hash >> 32;
+    }
     return hash;
 }
 
@@ -19,7 +24,8 @@ int intern_find(const struct intern *table, const void *bytes, size_t size)
 
     if (!table->buckets)
         return -1;
-    const struct intern_entry *entry = table->bucket[hash % table->buckets];
+    const struct intern_entry *entry =
+        table->bucket[hash & (table->buckets - 1)];
     for (; entry; entry = entry->next)
         if (entry->hash == hash && entry->size == size &&
             !memcmp(entry->bytes, bytes, size))
@@ -38,8 +44,8 @@ static void widen(struct intern *table, struct arena *arena)
         struct intern_entry *next, *entry = table->bucket[i];
         for (; entry; entry = next) {
             next = entry->next;
-            entry->next = bucket[entry->hash % buckets];
-            bucket[entry->hash % buckets] = entry;
+            entry->next = bucket[entry->hash & (buckets - 1)];
+            bucket[entry->hash & (buckets - 1)] = entry;
         }
     }
     table->bucket = bucket;
@@ -60,7 +66,7 @@ void intern_keep(struct intern *table, struct arena *arena, const void *bytes,
     entry->size = size;
     entry->id = id;
     entry->bytes = copy;
-    entry->next = table->bucket[entry->hash % table->buckets];
-    table->bucket[entry->hash % table->buckets] = entry;
+    entry->next = table->bucket[entry->hash & (table->buckets - 1)];
+    table->bucket[entry->hash & (table->buckets - 1)] = entry;
     table->entries++;
 }

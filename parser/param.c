@@ -6,7 +6,7 @@
 const struct param *param_find(const struct param *table, const char *word)
 {
     for (; table && table->word; table++)
-        if (!strcmp(table->word, word))
+        if (*table->word == *word && !strcmp(table->word, word))
             return table;
     return NULL;
 }

@@ -75,8 +75,8 @@ static void test_kinds(void **state)
 {
     (void)state;
     static const int sphere[] = {TOK_IDENTIFIER, '{', '<',     TOK_NUMBER, ',',
-                                 TOK_NUMBER,     '>', TOK_DOT, '}',        ';'};
-    assert_kinds("Ball { <1, .5>.x };", sphere, sizeof sphere / sizeof *sphere);
+                                 TOK_IDENTIFIER, '>', TOK_DOT, '}',        ';'};
+    assert_kinds("Ball { <1, a>.x };", sphere, sizeof sphere / sizeof *sphere);
     static const int relations[] = {TOK_LESS_EQUAL,
                                     TOK_GREATER_EQUAL,
                                     TOK_NOT_EQUAL,
@@ -185,7 +185,7 @@ static void test_runs_of_data(void **state)
         const char *text;
         size_t length;
     } runs[] = {{"<1,2,3>, <4,5,6>}", 16},
-                {" 10, -2.5e-3 , +.5 }", 18},
+                {"10, -2.5e-3 , +.5 }", 17},
                 {"<1,2,3>, <4,5,6>*2 }", 7},
                 {"<1,2,3>, 4 5}", 7},
                 {"<1,2,3>, <4,5,6>, x}", 16},
@@ -203,6 +203,9 @@ static void test_runs_of_data(void **state)
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
         assert_int_equal(data_measure(runs[i].text), runs[i].length);
     }
+    assert_int_equal(data_measure_vector("<1,2, -3>*2"), 9);
+    assert_int_equal(data_measure_vector("<1,2,a>"), 0);
+    assert_int_equal(data_measure_vector("<1,2"), 0);
 }
 
 /* The same tokens as if each were scanned by itself. */
