@@ -3,7 +3,7 @@
 #ifndef CORE_SCENE_H
 #define CORE_SCENE_H
 #include "core/brume.h"
-#include "core/physics/machine.h"
+#include "core/physics/machine_code.h"
 
 struct scene_interior {
     int media[BRUME_MAX_INTERIOR_MEDIA];

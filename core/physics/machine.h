@@ -18,15 +18,10 @@
 #include "core/physics/grid.h"
 #endif
 #include "core/physics/internal.h"
+#include "core/physics/machine_code.h"
 #include "core/physics/pattern.h"
 #include "core/physics/pattern_warp.h"
 #include "core/physics/spline.h"
-
-enum {
-    MACHINE_REGISTERS = 256,    /* of all frames of an evaluation          */
-    MACHINE_CALLS = 32,         /* calls that may be open at a time        */
-    MACHINE_FUEL = 1 << 22      /* calls and turns of loops in all         */
-};
 
 /* NAME, value of the operand a */
 #define MACHINE_UNARY(X)                                                      \
@@ -117,19 +112,6 @@ enum machine_op {
 #undef X
     MACHINE_OPS
 };
-
-typedef struct {
-    uint16_t op, dst;
-    int32_t a, b, c;
-} machine_instruction;
-
-typedef struct {
-    int32_t code;           /* its first instruction                       */
-    int32_t length;
-    int16_t parameters, results;
-    int16_t registers;      /* that it and all it calls need               */
-    int16_t calls;          /* depth of its calls, 0 if it calls none      */
-} machine_function;
 
 /* All functions of a scene. */
 typedef struct {
