@@ -10,7 +10,6 @@ static const char *const unit_words[] = {"pov", "physical", NULL};
 static const char *const integrator_words[] = {"path", "photon", "progressive",
                                                NULL};
 
-static const char pattern_note[] = "there are no patterns that it is for yet";
 static const char finish_note[] = "there are no finishes that it is for yet";
 
 #define GLOBAL(word, kind, start, low, high, open, given)                      \
@@ -25,8 +24,8 @@ const struct param build_globals_params[] = {
     GLOBAL(accuracy, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
     GLOBAL(time_limit, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
     PARAM_WITHOUT("max_intersections", "Brume has no such bound"),
-    PARAM_WITHOUT("number_of_waves", pattern_note),
-    PARAM_WITHOUT("noise_generator", pattern_note),
+    GLOBAL(number_of_waves, PARAM_INTEGER, 10, 1, 100, 0, 0),
+    GLOBAL(noise_generator, PARAM_INTEGER, 2, 1, 3, 0, 0),
     PARAM_WITHOUT("irid_wavelength", finish_note),
     PARAM_WITHOUT("mm_per_unit", finish_note),
     PARAM_WORDS("integrator", integrator_words, GLOBAL_INTEGRATOR,

@@ -464,18 +464,12 @@ void build_pattern_choice(struct parser *parser, struct frame *frame,
 /* POV-Ray's colours where a block pattern has too few of its own. */
 static struct value block_color(enum pattern_kind kind, int index)
 {
-    static const double row[][6][3] = {
-        {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}},
-        {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 0}},
-        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}},
-        {{0.5, 0.5, 0.5}, {0.3, 0, 0}},
-        {{0, 0, 0}, {1, 1, 1}}};
-    int used = kind == PATTERN_TRIANGULAR ? 1
-               : kind == PATTERN_CUBIC    ? 2
-               : kind == PATTERN_BRICK    ? 3
-               : kind == PATTERN_OBJECT   ? 4
-                                          : 0;
-    const double *c = row[used][index];
+    static const double list[3][6][3] = {
+        {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+        {{0.5, 0.5, 0.5}, {0.6, 0.15, 0.15}},
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}};
+    int used = kind == PATTERN_BRICK ? 1 : surface_choices(kind) > 3 ? 2 : 0;
+    const double *c = list[used][index];
 
     return value_color(c[0], c[1], c[2], 0, 0);
 }

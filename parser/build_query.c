@@ -127,12 +127,3 @@ struct value build_spline_value(struct parser *parser,
     parser_mistake(parser, at, "splines are not supported yet");
     return value_float(0);
 }
-
-int build_function(struct parser *parser, const struct value *value,
-                   struct location at, struct brume_error *err)
-{
-    (void)err;
-    parser_mistake(parser, at, "a function of a %s is not supported yet",
-                   value_name(value));
-    return -1;
-}

@@ -180,6 +180,7 @@ struct globals {
     double ambient_light[3], background[3];
     double assumed_gamma, adc_bailout, accuracy, time_limit;
     int max_trace_level, light_units, integrator;
+    int number_of_waves, noise_generator;
     struct transport transport;
     unsigned transport_given;
 };
@@ -219,6 +220,7 @@ struct builder {
                                        uvs                                 */
     int64_t announced, listed;      /* items of its open list              */
     struct intern intern[4];        /* what core has: see build_place.c    */
+    struct intern functions;        /* and build_function.c                */
     double *number;                 /* of long lists that are being read   */
     size_t numbers, number_room;
     struct placing *placing;        /* the objects being placed            */
@@ -329,6 +331,12 @@ void build_shape_open(struct parser *parser, struct frame *frame);
  * reported. */
 int build_place_query(struct parser *parser, const struct object *object,
                       struct location at);
+
+/* The pigment as a function of 3 parameters with 5 results, `by` applied
+ * after its own maps. -1: an error, or core cannot do it: err is clear. */
+int build_pigment_function(struct parser *parser,
+                           const struct pigment *pigment, const transform *by,
+                           struct brume_error *err);
 
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,

@@ -140,16 +140,27 @@ static void mean_of_map(const struct map *map, enum pattern_kind kind,
         color[i] = sum > 0 ? mean[i] / sum : 0;
 }
 
-/* Without a map patterns go from black to white. */
+static void mean_of_default(const struct pattern *pattern, double color[5])
+{
+    struct brume_map map = surface_default_map(pattern);
+    double sum = 0, mean[5] = {0};
+
+    for (int i = 0; i < map.count; i++) {
+        double low = i > 0 ? map.places[i - 1] : -map.places[i];
+        double high = i + 1 < map.count ? map.places[i + 1] : 2 - map.places[i];
+        add_mean(mean, map.values + 5 * i, 5, (high - low) / 2, &sum);
+    }
+    for (int i = 0; i < 5; i++)
+        color[i] = mean[i] / sum;
+}
+
 void surface_mean(const struct patterned *on, double color[5])
 {
-    static const double gray[5] = {0.5, 0.5, 0.5, 0, 0};
-
     if (on->map)
         mean_of_map(on->map, on->pattern ? on->pattern->kind : PATTERN_NONE,
                     color);
     else
-        memcpy(color, gray, sizeof gray);
+        mean_of_default(on->pattern, color);
 }
 
 void surface_mean_pigment(struct pigment *pigment)

@@ -149,6 +149,9 @@ bool surface_is_plain(const struct pattern *pattern);
 /* How many things a block pattern chooses from; 0: it gives a number. */
 int surface_choices(enum pattern_kind kind);
 
+/* Its colours where it is given none. */
+struct brume_map surface_default_map(const struct pattern *pattern);
+
 /* ---- maps -------------------------------------------------------------- */
 
 /* What a value of 0 to 1 chooses from, or (a list) a block pattern. */
