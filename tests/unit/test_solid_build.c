@@ -132,6 +132,73 @@ static void test_solid_build__no_memory(void **state)
     arena_release(&arena);
 }
 
+/* ---- the tree of a blob */
+
+enum { BALLS = 3000 };
+
+static dvec3 unit_point(rng *r)
+{
+    double x = rng_float(r), y = rng_float(r), z = rng_float(r);
+
+    return dvec3_make(x, y, z);
+}
+
+/* The sum of all balls' fields at p, one by one. */
+static double field_of(const double *n, dvec3 p)
+{
+    double sum = 0;
+
+    for (int i = 0; i < BALLS; i++, n += BRUME_BLOB_NUMBERS) {
+        double x = p.x - n[3], y = p.y - n[4], z = p.z - n[5];
+        double rest = 1 - (x * x + y * y + z * z) / (n[2] * n[2]);
+        sum += rest > 0 ? n[1] * rest * rest : 0;
+    }
+    return sum;
+}
+
+static void fill_balls(double *n, rng *r)
+{
+    for (int i = 0; i < BALLS; i++, n += BRUME_BLOB_NUMBERS) {
+        dvec3 centre = unit_point(r);
+        n[1] = (double)rng_float(r) - 0.3;
+        n[2] = 0.02 + 0.2 * (double)rng_float(r);
+        n[3] = centre.x;
+        n[4] = centre.y;
+        n[5] = centre.z;
+        n[9] = n[14] = n[19] = 1;
+    }
+}
+
+/* The field that the tree sums, and the roots that it leads to. */
+static void test_solid_build__many_components(void **state)
+{
+    (void)state;
+    static double n[BALLS * BRUME_BLOB_NUMBERS];
+    rng r = rng_make(5, 0, 0, 0);
+    struct arena arena;
+    struct solid solid;
+    int roots = 0;
+    fill_balls(n, &r);
+    arena_init(&arena, 0);
+    assert_true(solid_blob(&arena, 0.4, n, BALLS, &solid, NULL));
+    for (int i = 0; i < 1000; i++) {
+        dvec3 gradient, p = unit_point(&r);
+        double field = blob_field(solid.data, p, &gradient);
+        assert_true(fabs(field - field_of(n, p)) < 1e-12);
+    }
+    for (int i = 0; i < 200; i++) {
+        double t[64];
+        int part[64];
+        dvec3 o = unit_point(&r), d = dvec3_sub(unit_point(&r), o);
+        int count = blob_roots(solid.data, o, d, t, part, 64);
+        for (int k = 0; k < count; k++)
+            assert_true(fabs(field_of(n, dvec3_mad(o, t[k], d)) - 0.4) < 1e-9);
+        roots += count;
+    }
+    assert_in_range(roots, 300, 20000);
+    arena_release(&arena);
+}
+
 /* ---- any numbers */
 
 static double any_number(rng *r)
@@ -240,6 +307,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid_build__refusals),
         cmocka_unit_test(test_solid_build__no_memory),
+        cmocka_unit_test(test_solid_build__many_components),
         cmocka_unit_test(test_solid_build__any_numbers),
         cmocka_unit_test(test_solid_build__poly_order),
     };
