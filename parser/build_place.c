@@ -429,6 +429,10 @@ static bool place_next(struct parser *parser, size_t *depth,
 
     if (child) {
         top->next = child->next;
+        /* A single shape takes its clips along (brume.h); those of a group
+         * come where its parts do. */
+        if (top->phase == PLACING_CLIPS && top->object->kind != OBJECT_GROUP)
+            from.by = transform_identity();
         if (child->before)
             from.by = transform_then(child->before, &from.by);
         return place_one(parser, child->object, &from,
