@@ -219,6 +219,13 @@ static bool make_solid(const struct leaf_request *r, struct arena *arena,
         out->kind = SOLID_JULIA;
         return solid_julia(arena, in->julia_kind, in->julia_function, in->order,
                            in->accuracy, in->data, solid, err);
+    case BRUME_SHAPE_ISOSURFACE: {
+        struct brume_shape closed = *in;
+        closed.open = false;
+        out->kind = SOLID_ISOSURFACE;
+        out->flags |= in->open ? SHAPE_OPEN : 0;
+        return solid_isosurface(arena, &closed, in->function[0], solid, err);
+    }
     default:
         return make_polygon(in, arena, out, local, err);
     }
@@ -312,6 +319,21 @@ static struct box solid_box(const struct solid *solid)
     return out;
 }
 
+/* A surface_point of the shape's functions; NAN where they have no value. */
+static void parametric_point(void *context, double u, double v, double p[3])
+{
+    const struct leaf_request *r = context;
+    const double at[3] = {u, v, 0.0};
+    for (int i = 0; i < 3; i++) {
+        int id = r->shape->function[i], parameters, results;
+        double out[BRUME_MAX_RESULTS];
+        bool good = brume_function_arity(r->scene, id, &parameters, &results) &&
+                    brume_eval_function(r->scene, id, at, parameters, out,
+                                        NULL);
+        p[i] = good ? out[0] : NAN;
+    }
+}
+
 /* A mesh of the scene, or one that is made of the shape's numbers. */
 static bool take_mesh(const struct leaf_request *r, struct leaf *out,
                       struct brume_error *err)
@@ -323,6 +345,8 @@ static bool take_mesh(const struct leaf_request *r, struct leaf *out,
         out->made = surface_heights(in, r->closed, &out->seen_triangles, err);
     else if (in->kind == BRUME_SHAPE_BICUBIC_PATCH)
         out->made = surface_patch(in, err);
+    else if (in->kind == BRUME_SHAPE_PARAMETRIC)
+        out->made = surface_parametric(in, parametric_point, (void *)r, err);
     out->mesh = in->kind == BRUME_SHAPE_MESH ? r->scene->meshes[in->mesh]
                                              : out->made;
     if (!out->mesh)
@@ -333,6 +357,7 @@ static bool take_mesh(const struct leaf_request *r, struct leaf *out,
     for (int i = 0; i < 3; i++)
         out->inside[i] = heights ? up[i] : v[i];
     if (in->kind == BRUME_SHAPE_BICUBIC_PATCH ||
+        in->kind == BRUME_SHAPE_PARAMETRIC ||
         (r->closed && !heights && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0))
         out->flags |= SHAPE_THIN;
     out->map = *r->place;
@@ -343,7 +368,7 @@ static bool take_mesh(const struct leaf_request *r, struct leaf *out,
 static bool is_mesh(enum brume_shape_kind kind)
 {
     return kind == BRUME_SHAPE_MESH || kind == BRUME_SHAPE_BICUBIC_PATCH ||
-           kind == BRUME_SHAPE_HEIGHT_FIELD;
+           kind == BRUME_SHAPE_HEIGHT_FIELD || kind == BRUME_SHAPE_PARAMETRIC;
 }
 
 bool leaf_make(const struct leaf_request *r, struct arena *arena,

@@ -188,6 +188,33 @@ static bool add_nodes(struct flat *f, const struct assembly *a,
     return true;
 }
 
+/* The scene's functions go along where an isosurface asks for their values. */
+static bool add_functions(const struct prepare *job, const struct assembly *a,
+                          struct brume_error *err)
+{
+    const brume_scene *s = job->scene;
+    struct flat *f = job->flat;
+    bool needed = false;
+    for (size_t i = 0; i < a->parts_count; i++)
+        needed = needed || a->parts[i].leaf.kind == SOLID_ISOSURFACE;
+    if (!needed)
+        return true;
+    machine_instruction *code = FLAT_EXTEND(f, code, s->code_count, err);
+    machine_function *functions = FLAT_EXTEND(f, functions, s->functions_count,
+                                              err);
+    float *pool = FLAT_EXTEND(f, pool, s->pool_count + 1, err);
+    double *exact = FLAT_EXTEND(f, exact_pool, s->pool_count + 1, err);
+    if (!code || !functions || !pool || !exact)
+        return false;
+    memcpy(code, s->code, s->code_count * sizeof *code);
+    memcpy(functions, s->functions, s->functions_count * sizeof *functions);
+    for (size_t i = 0; i < s->pool_count; i++) {
+        pool[i] = (float)s->pool[i];
+        exact[i] = s->pool[i];
+    }
+    return true;
+}
+
 /* ---- trees ------------------------------------------------------------- */
 
 static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
@@ -280,7 +307,8 @@ bool prepare_shapes(const struct prepare *job, const struct assembly *a,
 {
     struct flat *f = job->flat;
     if (!add_parts(job, a, err) || !add_wholes(f, a, err) ||
-        !add_nodes(f, a, err) || !make_trees(job, a, err))
+        !add_nodes(f, a, err) || !add_functions(job, a, err) ||
+        !make_trees(job, a, err))
         return false;
     flat_view(f);
     return true;

@@ -90,9 +90,7 @@ static dvec3 hit_normal(const flat_scene *s, const bvh_ray *r, const ray_hit *h)
     if (h->triangle >= 0)
         n = triangle_normal(s, h);
     else if (leaf_is_solid(f))
-        n = leaf_normal(s, f,
-                        solid_normal(f->kind, leaf_params(s, f),
-                                     leaf_point(s, f, p), h->surface));
+        n = leaf_solid_side(s, f, leaf_point(s, f, p), h->surface);
     else
         n = leaf_normal(s, f,
                         shape_normal(f->kind, leaf_params(s, f),

@@ -34,8 +34,8 @@ static const struct rule rules[] = {
     [BRUME_SHAPE_SOR] = {"a sor", 8, 2, true, true},
     [BRUME_SHAPE_SPHERE_SWEEP] = {"a sphere_sweep", 8, 4, true, true},
     [BRUME_SHAPE_JULIA] = {"a julia_fractal", 11, 0, true, true},
-    [BRUME_SHAPE_ISOSURFACE] = {"an isosurface", 0, 0, false, false},
-    [BRUME_SHAPE_PARAMETRIC] = {"a parametric", 4, 0, false, false},
+    [BRUME_SHAPE_ISOSURFACE] = {"an isosurface", 0, 0, false, true},
+    [BRUME_SHAPE_PARAMETRIC] = {"a parametric", 4, 0, false, true},
     [BRUME_SHAPE_POLYGON] = {"a polygon", 9, 3, true, true},
     [BRUME_SHAPE_BICUBIC_PATCH] = {"a bicubic_patch", 48, 0, true, true},
     [BRUME_SHAPE_HEIGHT_FIELD] = {"a height_field", 4, 1, true, true},
@@ -119,8 +119,34 @@ static bool check_glyphs(const struct brume_shape *s, struct brume_error *err)
     return true;
 }
 
-static bool check_layout(const struct brume_shape *s, struct brume_error *err)
+/* Isosurfaces are of a function of x, y and z, parametric ones of three of u
+ * and v, which are x and y there. */
+static bool check_functions(const brume_scene *scene,
+                            const struct brume_shape *s,
+                            struct brume_error *err)
 {
+    bool iso = s->kind == BRUME_SHAPE_ISOSURFACE;
+    int count = iso ? 1 : s->kind == BRUME_SHAPE_PARAMETRIC ? 3 : 0;
+    for (int i = 0; i < count; i++) {
+        int parameters, results;
+        if (!brume_function_arity(scene, s->function[i], &parameters, &results))
+            return brume_fail(err, BRUME_ERR_SCENE, "there is no function %d",
+                              s->function[i]);
+        if (parameters < (iso ? 3 : 2) || parameters > 3 || results != 1)
+            return brume_fail(err, BRUME_ERR_SCENE,
+                              "%s is given a function of %d parameters and %d "
+                              "results; expected %s and 1",
+                              shape_name(s->kind), parameters, results,
+                              iso ? "3" : "2 or 3");
+    }
+    return true;
+}
+
+static bool check_layout(const brume_scene *scene, const struct brume_shape *s,
+                         struct brume_error *err)
+{
+    if (!check_functions(scene, s, err))
+        return false;
     if (s->kind == BRUME_SHAPE_HEIGHT_FIELD)
         return check_heights(s, err);
     return s->kind != BRUME_SHAPE_TEXT || check_glyphs(s, err);
@@ -141,7 +167,7 @@ bool shape_check(const brume_scene *scene, const struct brume_shape *s,
         !check_finite(radii, 2, "a shape's radius", err) ||
         !check_transform(s->transform, "a shape", err) ||
         !check_look(scene, s, err) || !check_data(s, err) ||
-        !check_layout(s, err) || !check_parts(scene, s, err))
+        !check_layout(scene, s, err) || !check_parts(scene, s, err))
         return false;
     if (s->kind == BRUME_SHAPE_MESH)
         return check_id(s->mesh, scene->meshes_count, false, "mesh", err);

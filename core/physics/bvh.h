@@ -23,10 +23,12 @@ HD bool bvh_accept(const flat_scene *s, const bvh_ray *r, bool out,
     return csg_crossing(s, f, &at, h);
 }
 
-/* Faces of solids that close them have negative numbers. */
+/* Faces of solids that close them have negative numbers; an isosurface's
+ * container has all but 0. */
 HD bool bvh_seen(const flat_shape *f, int surface)
 {
-    bool cap = leaf_is_solid(f) ? surface < 0 : surface != SHAPE_SIDE;
+    bool solid = leaf_is_solid(f) && f->kind != SOLID_ISOSURFACE;
+    bool cap = solid ? surface < 0 : surface != SHAPE_SIDE;
     return !(f->flags & SHAPE_UNSEEN) && !(cap && (f->flags & SHAPE_OPEN));
 }
 

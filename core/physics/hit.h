@@ -54,10 +54,7 @@ HD vec3 hit_solid_normal(const flat_scene *s, const flat_shape *f,
     dvec3 o = leaf_solid_point(m, real3_double(r->o));
     dvec3 d = leaf_solid_vector(m, real3_double(r->d));
     dvec3 p = dvec3_mad(o, t[h->root], d);
-    dvec3 n = leaf_solid_normal(m, solid_normal(f->kind, m + NUMBERS_MAP, p,
-                                                part[h->root]));
-    double length = dvec3_length(n);
-    n = dvec3_scale(n, length > 0.0 ? 1.0 / length : 0.0);
+    dvec3 n = leaf_solid_side(s, f, p, part[h->root]);
     return vec3_make((float)n.x, (float)n.y, (float)n.z);
 }
 

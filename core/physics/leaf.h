@@ -5,6 +5,7 @@
  * (queries), both are in double. */
 #ifndef CORE_PHYSICS_LEAF_H
 #define CORE_PHYSICS_LEAF_H
+#include "core/physics/isosurface.h"
 #include "core/physics/ray.h"
 #include "core/physics/shape.h"
 #include "core/physics/solids.h"
@@ -89,10 +90,25 @@ HD int leaf_solid_roots(const flat_scene *s, const flat_shape *f,
                         const bvh_ray *r, double t[SOLID_MAX_ROOTS],
                         int part[SOLID_MAX_ROOTS])
 {
-    const double *m = s->numbers + f->number;
-    return solid_roots(f->kind, m + NUMBERS_MAP,
-                       leaf_solid_point(m, real3_double(r->o)),
-                       leaf_solid_vector(m, real3_double(r->d)), t, part);
+    const double *m = s->numbers + f->number, *data = m + NUMBERS_MAP;
+    dvec3 o = leaf_solid_point(m, real3_double(r->o));
+    dvec3 d = leaf_solid_vector(m, real3_double(r->d));
+    return f->kind == SOLID_ISOSURFACE
+               ? isosurface_roots(s, data, o, d, t, part, SOLID_MAX_ROOTS)
+               : solid_roots(f->kind, data, o, d, t, part);
+}
+
+/* Normal of a solid in the space of rays, unit, at a point of its own. */
+HD dvec3 leaf_solid_side(const flat_scene *s, const flat_shape *f, dvec3 p,
+                         int part)
+{
+    const double *m = s->numbers + f->number, *data = m + NUMBERS_MAP;
+    dvec3 n = f->kind == SOLID_ISOSURFACE
+                  ? isosurface_normal(s, data, p, part)
+                  : solid_normal(f->kind, data, p, part);
+    n = leaf_solid_normal(m, n);
+    double length = dvec3_length(n);
+    return dvec3_scale(n, length > 0.0 ? 1.0 / length : 0.0);
 }
 
 /* All roots of a primitive along the ray's line, ascending. */
@@ -118,9 +134,10 @@ HD bool leaf_inside(const flat_scene *s, const flat_shape *f, real3 p)
         int kind = f->kind == SHAPE_DISC ? SHAPE_PLANE : f->kind;
         return shape_inside(kind, leaf_params(s, f), leaf_point(s, f, p));
     }
-    const double *m = s->numbers + f->number;
-    return solid_inside(f->kind, m + NUMBERS_MAP,
-                        leaf_solid_point(m, real3_double(p)));
+    const double *m = s->numbers + f->number, *data = m + NUMBERS_MAP;
+    dvec3 q = leaf_solid_point(m, real3_double(p));
+    return f->kind == SOLID_ISOSURFACE ? isosurface_inside(s, data, q)
+                                       : solid_inside(f->kind, data, q);
 }
 
 /* Whether the line is inside before all of its n roots, at t = -infinity. */

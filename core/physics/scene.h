@@ -10,6 +10,7 @@
 #include "core/physics/blackbody.h"
 #include "core/physics/camera.h"
 #include "core/physics/hd.h"
+#include "core/physics/machine.h"
 #include "core/physics/vec.h"
 
 enum { FIELD_CONSTANT, FIELD_GRID };
@@ -221,6 +222,10 @@ typedef struct {
     X(vec3, normals)                                                          \
     X(csg_node, csg)                                                          \
     X(double, numbers)                                                        \
+    X(machine_instruction, code)    /* of functions of isosurfaces */         \
+    X(machine_function, functions)                                            \
+    X(float, pool)                                                            \
+    X(double, exact_pool)       /* of queries */                              \
     X(flat_material, materials)                                               \
     X(flat_light, lights)                                                     \
     X(flat_sky, sky)            /* one, or none: the background is all */     \

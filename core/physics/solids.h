@@ -33,6 +33,7 @@ enum {
 #define X(NAME, name) SOLID_##NAME,
     SOLIDS(X)
 #undef X
+    SOLID_ISOSURFACE,       /* isosurface.h                                */
     SOLID_FIRST = SOLID_POLYGON,
     SOLID_MAX_ROOTS = 64
 };
