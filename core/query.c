@@ -53,7 +53,10 @@ static const flat_scene *query_scene(brume_scene *scene, int shape,
     struct scene_query *q = query_of(scene, shape, err);
     if (q && !q->flat)
         q->flat = make_flat(scene, shape, err);
-    return q && q->flat ? &q->flat->view : NULL;
+    if (!q || !q->flat)
+        return NULL;
+    q->flat->view.host_grids = scene->grids;
+    return &q->flat->view;
 }
 
 static dvec3 make_point(const double p[3])

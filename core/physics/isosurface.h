@@ -3,6 +3,7 @@
  * scene. Closed by their containers. */
 #ifndef CORE_PHYSICS_ISOSURFACE_H
 #define CORE_PHYSICS_ISOSURFACE_H
+#include "core/physics/machine.h"
 #include "core/physics/scene.h"
 #include "core/physics/solid_isosurface.h"
 
@@ -14,6 +15,7 @@ HD_APART double isosurface_value(const flat_scene *s, const double *data,
     m.code = s->code;
     m.functions = s->functions;
     m.pool = REAL_CHOOSE(s->exact_pool, s->pool);
+    m.grids = REAL_CHOOSE(s->host_grids, s);
     registers[0] = (real)p.x;
     registers[1] = (real)p.y;
     registers[2] = (real)p.z;

@@ -10,7 +10,7 @@
 #include "core/physics/blackbody.h"
 #include "core/physics/camera.h"
 #include "core/physics/hd.h"
-#include "core/physics/machine.h"
+#include "core/physics/machine_code.h"
 #include "core/physics/vec.h"
 
 enum { FIELD_CONSTANT, FIELD_GRID };
@@ -246,6 +246,7 @@ typedef struct {
     int32_t media_multiple, surfaces_indirect, environment, physical_units;
     int32_t scatters;       /* some medium has sigma_s > 0                 */
     int32_t local_lights;   /* some light is local                         */
+    const void *host_grids; /* of queries: the scene's (machine.h)         */
     float unit;             /* unit-space lengths per scene unit           */
     float far;              /* where rays end                              */
 } flat_scene;
