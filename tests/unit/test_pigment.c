@@ -369,6 +369,95 @@ static void test_refused(void **state)
     }
 }
 
+/* ---- any calls at all -------------------------------------------------- */
+
+static unsigned pick(uint64_t *seed, unsigned n)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (unsigned)(*seed >> 33) % n;
+}
+
+/* One call with arguments of which many are wrong. */
+static void any_call(brume_scene *s, struct brume_function *f, uint64_t *seed)
+{
+    static const double wild[] = {0,   1,        2, 3, .5, -1, 1e300,
+                                  NAN, INFINITY, 7, 0, 1,  0,  1};
+    const double *numbers = wild + pick(seed, 3);
+    int functions[3] = {(int)pick(seed, 20), (int)pick(seed, 20) - 1, 0};
+    struct brume_map map = {1 + (int)pick(seed, 3), 1 + (int)pick(seed, 6),
+                            pick(seed, 2) ? wild : NULL, wild,
+                            pick(seed, 2) ? functions : NULL};
+    map.terms = map.terms * map.count > 12 ? 1 : map.terms;
+    switch (pick(seed, 14)) {
+    case 0:
+        brume_function_constant(f, wild[pick(seed, 10)], NULL);
+        break;
+    case 1:
+    case 2:
+    case 3:
+        brume_function_parameter(f, (int)pick(seed, 3), NULL);
+        break;
+    case 4:
+        brume_function_op(f, (enum brume_op)pick(seed, 48), NULL);
+        break;
+    case 5:
+        brume_function_call(f, (int)pick(seed, 20), (int)pick(seed, 4), NULL);
+        break;
+    case 6:
+        brume_function_copy(f, (int)pick(seed, 6), NULL);
+        break;
+    case 7:
+        brume_function_open(f, (enum brume_block)pick(seed, 4), NULL);
+        break;
+    case 8:
+        brume_function_close(f, NULL);
+        break;
+    case 9:
+        brume_function_warp(f, (enum brume_warp)pick(seed, 9), numbers,
+                            (int)pick(seed, 12), NULL);
+        break;
+    case 10:
+        brume_function_pattern(f, (enum brume_pattern)pick(seed, 40), numbers,
+                               (int)pick(seed, 11), NULL);
+        break;
+    case 11:
+        brume_function_map(f, &map, NULL);
+        break;
+    case 12:
+        brume_function_average(f, &map, NULL);
+        break;
+    default:
+        brume_function_spline(f, (int)pick(seed, 2), (int)pick(seed, 6) - 1,
+                              NULL);
+    }
+    (void)s;
+}
+
+/* Whatever is called, nothing breaks; what is accepted can be evaluated. */
+static void test_any_calls(void **state)
+{
+    const double t[2] = {0, 1}, values[4] = {1, 2, 3, 4}, p[3] = {1, -.5, 2};
+    struct brume_spline spline = {BRUME_SPLINE_CUBIC, 2, 2, t, values};
+    brume_scene *s = *state;
+    uint64_t seed = 5;
+    int accepted = 0;
+    brume_add_spline(s, &spline, NULL);
+    add_solid(s, 1, 0);
+    for (int i = 0; i < 30000; i++) {
+        struct brume_function *f = brume_function_new(s, 3, NULL);
+        int calls = 1 + (int)pick(&seed, 9);
+        for (int k = 0; k < calls; k++)
+            any_call(s, f, &seed);
+        int id = brume_add_function(s, f, NULL);
+        double out[BRUME_MAX_RESULTS];
+        if (id < 0)
+            continue;
+        accepted++;
+        brume_eval_function(s, id, p, 3, out, NULL);
+    }
+    assert_true(accepted > 1000);
+}
+
 #define CASE(name)                                                             \
     {                                                                          \
         "pigment__" #name, test_##name, setup, teardown, NULL                  \
@@ -377,8 +466,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(color_map), CASE(pigment_map), CASE(average),    CASE(list),
-        CASE(warps),     CASE(pattern),     CASE(every_kind), CASE(refused),
+        CASE(color_map),  CASE(pigment_map), CASE(average),
+        CASE(list),       CASE(warps),       CASE(pattern),
+        CASE(every_kind), CASE(any_calls),   CASE(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
