@@ -139,6 +139,8 @@ void build_shape_open(struct parser *parser, struct frame *frame)
         [BUILD_PLANE] = BRUME_SHAPE_PLANE,
         [BUILD_DISC] = BRUME_SHAPE_DISC,
         [BUILD_TORUS] = BRUME_SHAPE_TORUS,
+        [BUILD_OVUS] = BRUME_SHAPE_OVUS,
+        [BUILD_TEXT] = BRUME_SHAPE_TEXT,
         [BUILD_QUADRIC] = BRUME_SHAPE_QUADRIC,
         [BUILD_CUBIC] = BRUME_SHAPE_POLY,
         [BUILD_QUARTIC] = BRUME_SHAPE_POLY,
@@ -184,6 +186,9 @@ static const struct param disc_arguments[] = {POINT("center", a),
                                               {0}};
 static const struct param torus_arguments[] = {
     LENGTH("major radius", radius), LENGTH("minor radius", radius_b), {0}};
+
+static const struct param ovus_arguments[] = {
+    LENGTH("bottom radius", radius), LENGTH("top radius", radius_b), {0}};
 
 static const struct param tube_params[] = {
     BUILD_OBJECT_ROWS,
@@ -233,6 +238,7 @@ SHAPE_STATEMENT(cone, 4, tube_params);
 SHAPE_STATEMENT(plane, 2, build_object_params);
 SHAPE_STATEMENT(disc, 3, build_object_params);
 SHAPE_STATEMENT(torus, 2, build_object_params);
+SHAPE_STATEMENT(ovus, 2, build_object_params);
 
 /* ---- what objects say of photons and radiosity: POV-Ray's own ways ----- */
 

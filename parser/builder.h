@@ -14,7 +14,8 @@
     X(TRIANGLE, triangle) X(SMOOTH_TRIANGLE, smooth_triangle)                 \
     X(SPHERE, sphere) X(BOX, box) X(CYLINDER, cylinder) X(CONE, cone)         \
     X(PLANE, plane) X(DISC, disc) X(MESH, mesh) X(MESH2, mesh2)               \
-    X(TORUS, torus) X(QUADRIC, quadric) X(CUBIC, cubic) X(QUARTIC, quartic)   \
+    X(TORUS, torus) X(OVUS, ovus) X(TEXT, text)                         \
+    X(QUADRIC, quadric) X(CUBIC, cubic) X(QUARTIC, quartic)                   \
     X(POLY, poly) X(SUPERELLIPSOID, superellipsoid)                           \
     X(JULIA_FRACTAL, julia_fractal)                                           \
     X(LATHE, lathe) X(PRISM, prism) X(SOR, sor)                               \

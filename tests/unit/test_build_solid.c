@@ -129,7 +129,8 @@ static void clips(void **state)
         "  clipped_by { bounded_by } translate y sphere { 0, 1 } }\n");
     assert_int_equal(s->shapes, 6);
     assert_int_equal(s->shape[0].kind, BRUME_SHAPE_PLANE);
-    NUMBERS(s->shape[0].transform[0], 2, 0, 0, 0);
+    /* It moves with the sphere, so it is told where it is in its space. */
+    NUMBERS(s->shape[0].transform[0], 1, 0, 0, -1);
     NUMBERS(s->shape[1].transform[0], 2, 0, 0, 2);
     assert_int_equal(s->shape[1].clip_count, 1);
     assert_int_equal(s->list[1].clips[0], 0);
@@ -155,16 +156,34 @@ static void what_pictures_lack(void **state)
     assert_null(first_of(DIAG_WARNING));
 }
 
+static void texts(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "ovus { 2, 1 }\n"
+        "text { ttf \"timrom.ttf\" \"I !\" .5, <.1, 0> scale 2 }\n");
+    assert_int_equal(s->shapes, 2);
+    assert_int_equal(s->shape[0].kind, BRUME_SHAPE_OVUS);
+    NUMBERS(&s->shape[0].radius, 2, 1);
+    assert_int_equal(s->shape[1].kind, BRUME_SHAPE_TEXT);
+    NUMBERS(&s->shape[1].radius, .5);
+    assert_true(s->shape[1].transform[1][1] == 2);
+    /* An I with serifs, and two glyphs' worth of an exclamation mark. */
+    size_t segments = (size_t)s->list[1].data[0];
+    assert_true(segments >= 12 && s->shape[1].count > 2 + 8 * segments);
+    expect_error("text { scale 2 }", BRUME_ERR_SCENE, 1, 16,
+                 "a text needs its 'ttf'");
+    expect_error("text { ttf 1, \"I\", 1, 0 }", BRUME_ERR_SCENE, 1, 8,
+                 "'ttf' needs a font, a text, a thickness and an offset");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quadrics),
-        cmocka_unit_test(fractals),
-        cmocka_unit_test(curves),
-        cmocka_unit_test(blobs),
-        cmocka_unit_test(groups),
-        cmocka_unit_test(clips),
-        cmocka_unit_test(what_pictures_lack),
+        cmocka_unit_test(texts),    cmocka_unit_test(quadrics),
+        cmocka_unit_test(fractals), cmocka_unit_test(curves),
+        cmocka_unit_test(blobs),    cmocka_unit_test(groups),
+        cmocka_unit_test(clips),    cmocka_unit_test(what_pictures_lack),
     };
 
     return cmocka_run_group_tests_name("build_solid", tests, NULL,
