@@ -18,6 +18,7 @@
  * ripples waves  count, frequency, phase, then 4 numbers for each source, by
  *              pattern_wave_sources; frequency and phase apply again after
  * spiral1 spiral2  generator, octaves, lambda, omega, amount x, arms
+ * tiling       which, 1 to 24
  * wood         octaves, lambda, omega, amount x y
  * boxed cells cylindrical leopard onion planar radial spherical  none
  *
@@ -29,6 +30,7 @@
 #include "core/physics/pattern_block.h"
 #include "core/physics/pattern_fractal.h"
 #include "core/physics/pattern_noise.h"
+#include "core/physics/pattern_tiling.h"
 
 /* function, NAME, numbers (of ripples and waves: without sources) */
 #define PATTERN_KINDS(X)                                                      \
@@ -41,8 +43,8 @@
     X(onion, ONION, 0) X(planar, PLANAR, 0) X(quilted, QUILTED, 2)            \
     X(radial, RADIAL, 0) X(ripples, RIPPLES, 3) X(spherical, SPHERICAL, 0)    \
     X(spiral1, SPIRAL1, 6) X(spiral2, SPIRAL2, 6) X(square, SQUARE, 0)        \
-    X(triangular, TRIANGULAR, 0) X(waves, WAVES, 3) X(wood, WOOD, 5)          \
-    X(wrinkles, WRINKLES, 1)
+    X(tiling, TILING, 1) X(triangular, TRIANGULAR, 0) X(waves, WAVES, 3)      \
+    X(wood, WOOD, 5) X(wrinkles, WRINKLES, 1)
 
 enum pattern_kind {
 #define X(function, name, numbers) PATTERN_##name,

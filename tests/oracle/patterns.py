@@ -116,6 +116,8 @@ CASES = [
     ("wrinkles 3", "wrinkles noise_generator 3"),
     (f"wood {SERIES} 0 0 turbulence {SERIES} 0.5 0.25 1",
      "wood warp { turbulence <0.5, 0.25, 1> } ramp_wave"),
+] + [(f"tiling {i} item", f"tiling {i} color_map {{ [0 rgb 0] [1 rgb 1] }}")
+     for i in range(1, 25)
 ] + [(f"fractal {magnet} 20 {exponent} {exterior} 0.25 {interior} 0.5"
       f" {1 if julia else 0} {julia or '0 0'}",
       (f"magnet {magnet} " if magnet else "")
