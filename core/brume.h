@@ -533,6 +533,7 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
  *   quilted      control0, control1
  *   ripples waves  count of sources (1 to 100), frequency, phase
  *   spiral1 spiral2  generator, octaves, lambda, omega, amount x, arms
+ *   tiling       which, 1 to 24
  *   wood         octaves, lambda, omega, amount x y
  *   the others none. Of brick, checker, cubic, hexagon, square, triangular the
  * value is the number of an item of a list, and goes through no wave. */
@@ -545,8 +546,8 @@ enum brume_pattern {
     BRUME_PATTERN_MARBLE, BRUME_PATTERN_ONION, BRUME_PATTERN_PLANAR,
     BRUME_PATTERN_QUILTED, BRUME_PATTERN_RADIAL, BRUME_PATTERN_RIPPLES,
     BRUME_PATTERN_SPHERICAL, BRUME_PATTERN_SPIRAL1, BRUME_PATTERN_SPIRAL2,
-    BRUME_PATTERN_SQUARE, BRUME_PATTERN_TRIANGULAR, BRUME_PATTERN_WAVES,
-    BRUME_PATTERN_WOOD, BRUME_PATTERN_WRINKLES
+    BRUME_PATTERN_SQUARE, BRUME_PATTERN_TILING, BRUME_PATTERN_TRIANGULAR,
+    BRUME_PATTERN_WAVES, BRUME_PATTERN_WOOD, BRUME_PATTERN_WRINKLES
 };
 
 /* From the point in question to the point where a pattern is looked up.
