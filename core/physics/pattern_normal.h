@@ -1,9 +1,8 @@
 /* pattern_normal.h - patterns of a surface's direction: slope and aoi, whose
- * values go to wave_value as others' do, and facets, which give a normal.
- * Measured of POV-Ray 3.7. */
+ * values go to wave_value as others' do. Measured of POV-Ray 3.7. */
 #ifndef CORE_PHYSICS_PATTERN_NORMAL_H
 #define CORE_PHYSICS_PATTERN_NORMAL_H
-#include "core/physics/pattern_noise.h"
+#include "core/physics/wave.h"
 
 enum { PATTERN_SLOPE_NUMBERS = 11 };
 
@@ -49,24 +48,6 @@ HD real pattern_slope(real3 p, real3 normal, const real *param)
         height = (height - param[8]) / (param[9] - param[8]);
     return (weight * slope + height_weight * height)
          / (weight + height_weight);
-}
-
-/* size or 0, coords: the normal that facets give to a point. Point and normal
- * (unit) are in pattern space, and so is the result: normals go there and
- * back as normals do, and are made unit again. By size, normals are drawn to
- * the nearest of the points of crackle; by coords, all points whose nearest
- * is the same are tilted alike. */
-HD real3 pattern_facets(real3 p, real3 normal, const real *param)
-{
-    real metric = REAL(2.0), offset = REAL(0.0);
-    if (param[0] != REAL(0.0)) {
-        real3 q = real3_scale(normal, REAL(1.0) / param[0]);
-        return pattern_unit(crackle_search(q, metric, offset).point);
-    }
-    real3 q = real3_scale(p, REAL(10.0));
-    real3 d = noise_vector(crackle_search(q, metric, offset).point);
-    real3 across = real3_mad(d, -real3_dot(d, normal), normal);
-    return pattern_unit(real3_mad(normal, param[1], across));
 }
 
 #endif

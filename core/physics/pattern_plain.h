@@ -116,18 +116,22 @@ HD real pattern_spiral2(real3 p, const real *param)
          + wave_triangle(real_sqrt(p.x * p.x + p.y * p.y));
 }
 
-/* Unit cells, round inside; control0 and control1 shape the slope from the
- * middle out as the ordinates of a cubic. */
+/* The slope of a quilt's cell at the distance t from its middle: a cubic with
+ * the ordinates control0 and control1. */
+HD real pattern_quilt(real t, const real *param)
+{
+    real s = REAL(1.0) - t;
+    return REAL(1.154700538) * (REAL(3.0) * s * t
+                                * (s * param[0] + t * param[1]) + t * t * t);
+}
+
 HD real pattern_quilted(real3 p, const real *param)
 {
     real x = wave_fraction(p.x) - REAL(0.5);
     real y = wave_fraction(p.y) - REAL(0.5);
     real z = wave_fraction(p.z) - REAL(0.5);
-    real t = real3_length(real3_make(x, y, z)), s = REAL(1.0) - t;
-    real cubic = REAL(3.0) * s * t * (s * param[0] + t * param[1])
-               + t * t * t;
     return (real_abs(x) + real_abs(y) + real_abs(z)) / REAL(3.0)
-         * cubic * REAL(1.154700538);
+         * pattern_quilt(real3_length(real3_make(x, y, z)), param);
 }
 
 #endif

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Slope, aoi and facets of POV-Ray: what tests/unit/test_pattern_normal.c has.
+"""Slope, aoi and normals of POV-Ray: what tests/unit/test_pattern_normal.c has.
 
 Slopes are seen on discs that lean by -80 to 80 degrees in steps of 32, the
-k-th at x = k - 2.5; facets on a sphere of radius 1 under three lights, from
+k-th at x = k - 2.5; normals on a sphere of radius 1 under three lights, from
 which the normal follows.
 """
 from math import sqrt
@@ -12,7 +12,12 @@ from renderer import render
 SLOPES = ("slope { y }", "slope { y, 0.25, 1.25 }", "aoi",
           "slope { <0, 0.5, 0>, 0, 1 altitude <2, 0, 0>, -8, 8 }",
           "slope { point_at <3, 7, -4> }")
-FACETS = ("size 0.5", "size 0.3", "coords 0.7")
+NORMALS = ("facets size 0.5", "facets size 0.3", "facets coords 0.7",
+           "bumps 0.4", "dents 1.5", "wrinkles -0.4",
+           "quilted 0.4 control0 0.25 control1 0.75",
+           "ripples 0.4 frequency 2 phase 0.25",
+           "waves 0.4 frequency 2 phase 0.25", "leopard 0.4",
+           "bozo 0.4 accuracy 0.1")
 CAMERA = """#version 3.7;
 global_settings { assumed_gamma 1 }
 camera { orthographic location -50*z direction z right %s*x up %s*y }
@@ -39,7 +44,7 @@ def solve(a, b):
                  for r in range(3)]) / det(a) for k in range(3)]
 
 
-def facets(words):
+def normals(words):
     scene = CAMERA % (1.2, 1.2)
     lights = [[c / sqrt(sum(d * d for d in light)) for c in light]
               for light in LIGHTS]
@@ -48,7 +53,7 @@ def facets(words):
         scene += (f"light_source {{ <{x}, {y}, {z}> rgb 0.5*{colour} parallel"
                   " point_at 0 shadowless }\n")
     scene += ("sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 diffuse 1 }"
-              f" normal {{ facets {words} }} }}\n")
+              f" normal {{ {words} }} }}\n")
     for row, pixels in enumerate(render(scene, 4, 4)):
         for column, pixel in enumerate(pixels):
             x, y = -0.45 + 0.3 * column, 0.45 - 0.3 * row
@@ -58,8 +63,8 @@ def facets(words):
 
 for text in SLOPES:
     print(text, *(f"{v:.5f}" for v in slopes(text)))
-for text in FACETS:
-    print("facets", text)
-    for at, normal in facets(text):
+for text in NORMALS:
+    print(text)
+    for at, normal in normals(text):
         print("   ", *(f"{c:.2f}" for c in at),
               *(f"{c:.5f}" for c in normal))

@@ -1,11 +1,12 @@
-/* test_pattern_normal.c - slope, aoi and facets against what POV-Ray shows
+/* test_pattern_normal.c - slope, aoi and bent normals against what POV-Ray shows
  * (tests/oracle/pattern_normals.py prints it). */
 #define PHYSICS_DOUBLE
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-#include "core/physics/pattern_normal.h"
+#include "core/physics/pattern.h"
+#include "core/physics/pattern_bump.h"
 
 enum { SIGHTS = 6, PLACES = 8 };
 
@@ -53,16 +54,25 @@ static void test_pattern_normal__aoi(void **state)
                            3e-5);
 }
 
-/* On the unit sphere, seen along z: x, y and the normal there. */
+/* On the unit sphere, seen along z. */
+static real3 place(const double *at)
+{
+    return real3_make(at[0], at[1], -sqrt(1 - at[0] * at[0] - at[1] * at[1]));
+}
+
+/* x, y and the normal there, as a picture tells it. */
+static void check_normal(real3 n, const double want[5])
+{
+    assert_float_equal(n.x, want[2], 1e-4);
+    assert_float_equal(n.y, want[3], 1e-4);
+    assert_float_equal(n.z, want[4], 1e-4);
+}
+
 static void check_facets(const real *param, const double want[PLACES][5])
 {
     for (int k = 0; k < PLACES; k++) {
-        real x = want[k][0], y = want[k][1];
-        real3 p = real3_make(x, y, -sqrt(1 - x * x - y * y));
-        real3 n = pattern_facets(p, p, param);
-        assert_float_equal(n.x, want[k][2], 1e-4);
-        assert_float_equal(n.y, want[k][3], 1e-4);
-        assert_float_equal(n.z, want[k][4], 1e-4);
+        real3 p = place(want[k]);
+        check_normal(pattern_facets(p, p, param), want[k]);
     }
 }
 
@@ -101,6 +111,120 @@ static void test_pattern_normal__facets(void **state)
     check_facets((const real[]){0, 0.7}, by_place);
 }
 
+#define CHECK_PUSH(kind, param, amount, ...)                                   \
+    do {                                                                       \
+        const double want[PLACES][5] = __VA_ARGS__;                            \
+        for (int k = 0; k < PLACES; k++) {                                     \
+            real3 p = place(want[k]);                                          \
+            real3 push = pattern_push_##kind(p, param);                        \
+            check_normal(pattern_pushed(p, amount, push), want[k]);            \
+        }                                                                      \
+    } while (0)
+
+static void test_pattern_normal__bumps(void **state)
+{
+    (void)state;
+    const real generator[] = {2}, controls[] = {0.25, 0.75};
+    real sources[43] = {10, 2, 0.25};
+    pattern_wave_sources(10, sources + 3);
+    CHECK_PUSH(bumps, generator, 0.4,
+               {{-0.45, 0.45, -0.37997, 0.61023, -0.69518},
+                {0.15, 0.45, 0.20429, 0.62938, -0.74975},
+                {-0.15, 0.15, -0.13367, 0.31783, -0.93866},
+                {0.45, 0.15, 0.45074, 0.21325, -0.8668},
+                {-0.45, -0.15, -0.39866, -0.04493, -0.91599},
+                {0.15, -0.15, 0.02163, -0.23618, -0.97148},
+                {-0.15, -0.45, -0.19136, -0.58146, -0.79075},
+                {0.45, -0.45, 0.41168, -0.58242, -0.70096}});
+    CHECK_PUSH(dents, generator, 1.5,
+               {{-0.45, 0.45, -0.3862, 0.59801, -0.70235},
+                {0.15, 0.45, 0.18531, 0.5663, -0.8031},
+                {-0.15, 0.15, -0.14078, 0.25085, -0.95775},
+                {0.45, 0.15, 0.45024, 0.16011, -0.87844},
+                {-0.45, -0.15, -0.41245, -0.07205, -0.90814},
+                {0.15, -0.15, 0.13041, -0.16358, -0.97788},
+                {-0.15, -0.45, -0.1659, -0.5004, -0.84978},
+                {0.45, -0.45, 0.43794, -0.49717, -0.74901}});
+    CHECK_PUSH(wrinkles, generator, -0.4,
+               {{-0.45, 0.45, -0.52407, 0.15586, -0.8373},
+                {0.15, 0.45, -0.00491, 0.21682, -0.9762},
+                {-0.15, 0.15, -0.23495, -0.07804, -0.96886},
+                {0.45, 0.15, 0.21454, 0.05153, -0.97535},
+                {-0.45, -0.15, -0.53273, -0.26457, -0.80388},
+                {0.15, -0.15, -0.03702, -0.22656, -0.97328},
+                {-0.15, -0.45, -0.26423, -0.50045, -0.82445},
+                {0.45, -0.45, 0.25248, -0.55172, -0.79489}});
+    CHECK_PUSH(quilted, controls, 0.4,
+               {{-0.45, 0.45, -0.43537, 0.43535, -0.788},
+                {0.15, 0.45, 0.06149, 0.41003, -0.91001},
+                {-0.15, 0.15, -0.03135, 0.03136, -0.99901},
+                {0.45, 0.15, 0.41003, 0.0615, -0.91},
+                {-0.45, -0.15, -0.40999, -0.06146, -0.90999},
+                {0.15, -0.15, 0.03136, -0.03137, -0.99902},
+                {-0.15, -0.45, -0.0615, -0.41004, -0.91},
+                {0.45, -0.45, 0.43534, -0.43536, -0.78802}});
+    CHECK_PUSH(ripples, sources, 0.4,
+               {{-0.45, 0.45, -0.47916, 0.38247, -0.79004},
+                {0.15, 0.45, 0.15726, 0.47969, -0.86324},
+                {-0.15, 0.15, -0.16531, 0.22943, -0.9592},
+                {0.45, 0.15, 0.47422, 0.18271, -0.86123},
+                {-0.45, -0.15, -0.48917, -0.24013, -0.83846},
+                {0.15, -0.15, 0.11975, -0.16151, -0.97959},
+                {-0.15, -0.45, -0.14702, -0.47382, -0.86828},
+                {0.45, -0.45, 0.52961, -0.44201, -0.72396}});
+    CHECK_PUSH(waves, sources, 0.4,
+               {{-0.45, 0.45, -0.33006, 0.42424, -0.84325},
+                {0.15, 0.45, 0.13721, 0.43649, -0.8892},
+                {-0.15, 0.15, -0.03848, -0.04229, -0.99836},
+                {0.45, 0.15, 0.51177, -0.00746, -0.85911},
+                {-0.45, -0.15, -0.24754, 0.04395, -0.96787},
+                {0.15, -0.15, 0.14536, 0.00595, -0.98937},
+                {-0.15, -0.45, -0.0251, -0.32455, -0.94554},
+                {0.45, -0.45, 0.65957, -0.15911, -0.73459}});
+}
+
+/* Of any pattern, from its slope. */
+static void check_slope(int kind, const real *param, real accuracy,
+                        const double want[PLACES][5])
+{
+    for (int k = 0; k < PLACES; k++) {
+        real3 p = place(want[k]), push = real3_make(0, 0, 0);
+        for (int i = 0; i < PATTERN_CORNERS; i++) {
+            real3 q = real3_mad(p, accuracy, pattern_corner(i));
+            real f = wave_value(WAVE_RAMP, 1, 1, 0,
+                                pattern_value(kind, q, param));
+            push = real3_add(push, pattern_corner_push(i, f, accuracy));
+        }
+        check_normal(pattern_pushed(p, 0.4, push), want[k]);
+    }
+}
+
+static void test_pattern_normal__slope_of_a_pattern(void **state)
+{
+    (void)state;
+    const real generator[] = {2};
+    const double leopard[PLACES][5] = {
+        {-0.45, 0.45, -0.4446, 0.45952, -0.76889},
+        {0.15, 0.45, 0.15225, 0.45204, -0.87891},
+        {-0.15, 0.15, -0.14103, 0.16052, -0.97691},
+        {0.45, 0.15, 0.45209, 0.15217, -0.87892},
+        {-0.45, -0.15, -0.44346, -0.13662, -0.88582},
+        {0.15, -0.15, 0.16056, -0.14107, -0.97688},
+        {-0.15, -0.45, -0.13656, -0.44347, -0.88581},
+        {0.45, -0.45, 0.45954, -0.44459, -0.76884}};
+    const double bozo[PLACES][5] = {
+        {-0.45, 0.45, -0.45951, 0.45252, -0.76424},
+        {0.15, 0.45, 0.16501, 0.44195, -0.88173},
+        {-0.15, 0.15, -0.13143, 0.12519, -0.9834},
+        {0.45, 0.15, 0.45537, 0.13744, -0.87962},
+        {-0.45, -0.15, -0.43827, -0.15275, -0.88575},
+        {0.15, -0.15, 0.15218, -0.15483, -0.97616},
+        {-0.15, -0.45, -0.12802, -0.44623, -0.88569},
+        {0.45, -0.45, 0.4372, -0.43888, -0.78498}};
+    check_slope(PATTERN_LEOPARD, NULL, 0.02, leopard);
+    check_slope(PATTERN_BOZO, generator, 0.1, bozo);
+}
+
 /* A normal or a direction of no length is met by some value. */
 static void test_pattern_normal__bears_nothing(void **state)
 {
@@ -118,6 +242,8 @@ int main(void)
         cmocka_unit_test(test_pattern_normal__slope),
         cmocka_unit_test(test_pattern_normal__aoi),
         cmocka_unit_test(test_pattern_normal__facets),
+        cmocka_unit_test(test_pattern_normal__bumps),
+        cmocka_unit_test(test_pattern_normal__slope_of_a_pattern),
         cmocka_unit_test(test_pattern_normal__bears_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
