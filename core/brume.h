@@ -530,6 +530,7 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
  *                factor, interior type, factor, julia (0: mandel), c re im
  *   gradient     direction x y z
  *   marble       generator, octaves, lambda, omega, amount x
+ *   pavement     sides, tiles, pattern; its form, exterior and interior are 0
  *   quilted      control0, control1
  *   ripples waves  count of sources (1 to 100), frequency, phase
  *   spiral1 spiral2  generator, octaves, lambda, omega, amount x, arms
@@ -543,7 +544,8 @@ enum brume_pattern {
     BRUME_PATTERN_CRACKLE, BRUME_PATTERN_CUBIC, BRUME_PATTERN_CYLINDRICAL,
     BRUME_PATTERN_DENTS, BRUME_PATTERN_FRACTAL, BRUME_PATTERN_GRADIENT,
     BRUME_PATTERN_GRANITE, BRUME_PATTERN_HEXAGON, BRUME_PATTERN_LEOPARD,
-    BRUME_PATTERN_MARBLE, BRUME_PATTERN_ONION, BRUME_PATTERN_PLANAR,
+    BRUME_PATTERN_MARBLE, BRUME_PATTERN_ONION, BRUME_PATTERN_PAVEMENT,
+    BRUME_PATTERN_PLANAR,
     BRUME_PATTERN_QUILTED, BRUME_PATTERN_RADIAL, BRUME_PATTERN_RIPPLES,
     BRUME_PATTERN_SPHERICAL, BRUME_PATTERN_SPIRAL1, BRUME_PATTERN_SPIRAL2,
     BRUME_PATTERN_SQUARE, BRUME_PATTERN_TILING, BRUME_PATTERN_TRIANGULAR,

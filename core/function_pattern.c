@@ -50,6 +50,10 @@ size_t pattern_size(int kind, const double *numbers, size_t room)
     if (kind == PATTERN_FRACTAL && !(in_range(numbers[1], 0, ITERATION_LIMIT) &&
                                      in_range(numbers[2], 1, EXPONENT_LIMIT)))
         return 0;
+    if (kind == PATTERN_TILING && !in_range(numbers[0], 1, TILING_COUNT))
+        return 0;
+    if (kind == PATTERN_PAVEMENT && pavement_of(numbers).index < 0)
+        return 0;
     if (is_waves(kind)) {
         if (!in_range(numbers[0], 1, SOURCE_LIMIT))
             return 0;

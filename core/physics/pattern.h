@@ -14,6 +14,7 @@
  *              interior type, factor, julia (0: mandel), c re im; when not
  *              given, exponent 2, exterior 1 1, interior 0 1
  * marble       generator, octaves, lambda, omega, amount x
+ * pavement     sides, tiles, pattern
  * quilted      control0, control1
  * ripples waves  count, frequency, phase, then 4 numbers for each source, by
  *              pattern_wave_sources; frequency and phase apply again after
@@ -30,6 +31,7 @@
 #include "core/physics/pattern_block.h"
 #include "core/physics/pattern_fractal.h"
 #include "core/physics/pattern_noise.h"
+#include "core/physics/pattern_pavement.h"
 #include "core/physics/pattern_tiling.h"
 
 /* function, NAME, numbers (of ripples and waves: without sources) */
@@ -40,11 +42,11 @@
     X(cylindrical, CYLINDRICAL, 0) X(dents, DENTS, 1)                         \
     X(fractal, FRACTAL, 10) X(gradient, GRADIENT, 3) X(granite, GRANITE, 1)   \
     X(hexagon, HEXAGON, 0) X(leopard, LEOPARD, 0) X(marble, MARBLE, 5)        \
-    X(onion, ONION, 0) X(planar, PLANAR, 0) X(quilted, QUILTED, 2)            \
-    X(radial, RADIAL, 0) X(ripples, RIPPLES, 3) X(spherical, SPHERICAL, 0)    \
-    X(spiral1, SPIRAL1, 6) X(spiral2, SPIRAL2, 6) X(square, SQUARE, 0)        \
-    X(tiling, TILING, 1) X(triangular, TRIANGULAR, 0) X(waves, WAVES, 3)      \
-    X(wood, WOOD, 5) X(wrinkles, WRINKLES, 1)
+    X(onion, ONION, 0) X(pavement, PAVEMENT, 3) X(planar, PLANAR, 0)          \
+    X(quilted, QUILTED, 2) X(radial, RADIAL, 0) X(ripples, RIPPLES, 3)        \
+    X(spherical, SPHERICAL, 0) X(spiral1, SPIRAL1, 6) X(spiral2, SPIRAL2, 6)  \
+    X(square, SQUARE, 0) X(tiling, TILING, 1) X(triangular, TRIANGULAR, 0)    \
+    X(waves, WAVES, 3) X(wood, WOOD, 5) X(wrinkles, WRINKLES, 1)
 
 enum pattern_kind {
 #define X(function, name, numbers) PATTERN_##name,

@@ -107,9 +107,9 @@ HD real3 pattern_pushed(real3 normal, real amount, real3 push)
     return pattern_unit(real3_mad(normal, amount, push));
 }
 
-/* size or 0, coords: the normal that facets give to a point. By size, normals are drawn to
- * the nearest of the points of crackle; by coords, all points whose nearest
- * is the same are tilted alike. */
+/* size or 0, coords: the normal that facets give to a point. By size, normals
+ * are drawn to the nearest of the points of crackle; by coords, all points
+ * whose nearest is the same are tilted alike. */
 HD real3 pattern_facets(real3 p, real3 normal, const real *param)
 {
     real metric = REAL(2.0), offset = REAL(0.0);

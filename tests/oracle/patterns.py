@@ -118,6 +118,12 @@ CASES = [
      "wood warp { turbulence <0.5, 0.25, 1> } ramp_wave"),
 ] + [(f"tiling {i} item", f"tiling {i} color_map {{ [0 rgb 0] [1 rgb 1] }}")
      for i in range(1, 25)
+] + [(f"pavement {sides} {tiles} {variant} item",
+      f"pavement number_of_sides {sides} number_of_tiles {tiles}"
+      f" pattern {variant} color_map {{ [0 rgb 0] [1 rgb 1] }}")
+     for sides, tiles, variant in (
+         (3, 1, 1), (3, 3, 1), (3, 5, 3), (3, 6, 5), (3, 6, 12), (4, 1, 1),
+         (4, 4, 5), (4, 6, 20), (4, 6, 35), (6, 1, 1), (6, 3, 3), (6, 5, 22))
 ] + [(f"fractal {magnet} 20 {exponent} {exterior} 0.25 {interior} 0.5"
       f" {1 if julia else 0} {julia or '0 0'}",
       (f"magnet {magnet} " if magnet else "")

@@ -1,5 +1,5 @@
-/* test_pattern_normal.c - slope, aoi and bent normals against what POV-Ray shows
- * (tests/oracle/pattern_normals.py prints it). */
+/* test_pattern_normal.c - slope, aoi and bent normals against what POV-Ray
+ * shows (tests/oracle/pattern_normals.py prints it). */
 #define PHYSICS_DOUBLE
 #include <setjmp.h>
 #include <stdarg.h>
