@@ -520,8 +520,8 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
  * What is written last in the scene comes first here: it is undone first. */
 
 /* Their numbers, in this order; they are checked. Generator is 1, 2 or 3;
- * octaves, lambda, omega are those of turbulence. Where turbulence is among
- * them no warp shall give it, but for the spirals, which have both.
+ * octaves, lambda, omega are those of turbulence. Where an amount of it is
+ * among them no warp shall give it, but for the spirals, which have both.
  *   agate        generator, octaves, lambda, omega, agate_turb
  *   bozo dents granite wrinkles  generator; bumps and spotted are bozo
  *   brick        size x y z, mortar

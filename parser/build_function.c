@@ -162,6 +162,14 @@ static void put_own(struct parser *parser, const struct pattern *pattern,
         if (pattern->kind != PATTERN_MARBLE)
             put(to, pattern->number);
         break;
+    case PATTERN_PAVEMENT:
+        put(to, pattern->sides);
+        put(to, pattern->tiles);
+        put(to, pattern->variant);
+        break;
+    case PATTERN_TILING:
+        put(to, pattern->number);
+        break;
     case PATTERN_QUILTED:
         put(to, pattern->control[0]);
         put(to, pattern->control[1]);
@@ -209,6 +217,7 @@ static int core_pattern(enum pattern_kind kind)
         SAME(LEOPARD)
         SAME(MARBLE)
         SAME(ONION)
+        SAME(PAVEMENT)
         SAME(PLANAR)
         SAME(QUILTED)
         SAME(RADIAL)
@@ -217,6 +226,7 @@ static int core_pattern(enum pattern_kind kind)
         SAME(SPIRAL1)
         SAME(SPIRAL2)
         SAME(SQUARE)
+        SAME(TILING)
         SAME(TRIANGULAR)
         SAME(WAVES)
         SAME(WOOD)
@@ -243,8 +253,7 @@ static bool has_noise(int pattern)
 /* Turbulence that is among a pattern's numbers. */
 static bool is_turbulent_itself(enum pattern_kind kind)
 {
-    return kind == PATTERN_AGATE || kind == PATTERN_MARBLE ||
-           kind == PATTERN_WOOD;
+    return kind == PATTERN_MARBLE || kind == PATTERN_WOOD;
 }
 
 /* ---- the point where a pattern is looked up ---------------------------- */
@@ -373,6 +382,16 @@ static bool write_wave(struct writer *w, const struct pattern *pattern)
                                pattern->frequency, pattern->phase, w->err);
 }
 
+/* Patterns that core has in part. */
+static bool is_missing(const struct pattern *pattern)
+{
+    bool shaped = pattern->form[0] != 0 || pattern->interior[0] != 0 ||
+                  pattern->exterior[0] != 0;
+
+    return (pattern->kind == PATTERN_TILING && pattern->number > 24) ||
+           (pattern->kind == PATTERN_PAVEMENT && shaped);
+}
+
 /* Takes a point and leaves a value. */
 static bool write_value(struct writer *w, const struct pattern *pattern)
 {
@@ -384,7 +403,7 @@ static bool write_value(struct writer *w, const struct pattern *pattern)
         fine = brume_function_call(w->to, pattern->function->id, 3, w->err);
     } else if (pattern->kind == PATTERN_PIGMENT) {
         fine = write_pigment_pattern(w, pattern);
-    } else if (kind < 0) {
+    } else if (kind < 0 || is_missing(pattern)) {
         w->missing = "its pattern";
         return false;
     } else {

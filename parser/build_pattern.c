@@ -158,9 +158,9 @@ static const struct param modifier_rows[] = {
        exterior),
     OF("interior", PARAM_PAIR, 1, -INFINITY, INFINITY, FOR_FRACTAL_PAVEMENT,
        interior),
-    OF("number_of_sides", PARAM_INTEGER, 4, 3, 6, FOR_PAVEMENT, sides),
+    OF("number_of_sides", PARAM_INTEGER, 3, 3, 6, FOR_PAVEMENT, sides),
     OF("number_of_tiles", PARAM_INTEGER, 1, 1, 6, FOR_PAVEMENT, tiles),
-    OF("pattern", PARAM_INTEGER, 1, 1, 22, FOR_PAVEMENT, variant),
+    OF("pattern", PARAM_INTEGER, 1, 1, 35, FOR_PAVEMENT, variant),
     {0}};
 
 static void *modified(struct parser *parser, struct frame *frame)

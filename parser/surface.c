@@ -50,7 +50,7 @@ void surface_pattern_start(struct pattern *pattern, enum pattern_kind kind)
         .form = {-1, 1, 0},
         .metric = 2,
         .control = {1, 1},
-        .sides = 4,
+        .sides = 3,
         .tiles = 1,
         .variant = 1,
         .slope = {0, 1},
@@ -62,8 +62,10 @@ void surface_pattern_start(struct pattern *pattern, enum pattern_kind kind)
     pattern->kind = kind;
     if (is_triangular(kind))
         pattern->wave = WAVE_TRIANGLE;
-    if (kind == PATTERN_PAVEMENT)
+    if (kind == PATTERN_PAVEMENT) {
         memset(pattern->form, 0, sizeof pattern->form);
+        pattern->exterior[0] = 0;
+    }
 }
 
 int surface_choices(enum pattern_kind kind)

@@ -3,8 +3,8 @@
  * A kind's numbers stand in this order; what has the same name is the same:
  * generator 1, 2 or 3; octaves, lambda, omega of turbulence, as integer and
  * factors; amount, that of turbulence written in the pattern itself. Where
- * it has its own place here (marble, wood: instead of moving the point;
- * spirals: x, beside moving the point by a warp), no other may be applied.
+ * it has its own place here it does not move the point (marble, wood) or moves
+ * it too, by a warp before (spirals: x); agate's always moves it.
  *
  * agate        generator, octaves, lambda, omega, agate_turb
  * bozo dents granite wrinkles  generator; bumps and spotted are bozo

@@ -80,6 +80,12 @@ pattern { onion }
 pattern { pigment_pattern { checker } }
 pigment { square rgb 0 rgb .1 rgb .2 rgb .3 }
 pigment { triangular rgb 0 rgb .1 rgb .2 rgb .3 rgb .4 rgb .5 }
+pigment { agate turbulence .4 lambda 3 scale .7 }
+pigment { tiling 8 }
+pigment { tiling 24 rotate 20 }
+pigment { pavement }
+pigment { pavement number_of_sides 3 number_of_tiles 5 pattern 3 scale .5 }
+pigment { pavement number_of_sides 4 number_of_tiles 6 pattern 30 }
 """.strip().splitlines()
 POINTS = 5
 
