@@ -271,6 +271,25 @@ static void test_pattern(void **state)
     expect(*state, id, -1.5, .3, .4, 1, &sines[2]);
 }
 
+static void refuses(brume_scene *scene, enum brume_pattern kind,
+                    const double *numbers, int count)
+{
+    struct brume_function *f = begin(scene);
+    assert_false(brume_function_pattern(f, kind, numbers, count, NULL));
+    brume_function_free(f);
+}
+
+static void test_tiles_that_are_not(void **state)
+{
+    const double tilings[] = {0, 25};
+    const double pavements[][3] = {{5, 1, 1}, {4, 7, 1},  {4, 2, 2},
+                                   {6, 6, 1}, {3, 6, 13}, {4, 1, 0}};
+    for (int i = 0; i < 2; i++)
+        refuses(*state, BRUME_PATTERN_TILING, &tilings[i], 1);
+    for (int i = 0; i < 6; i++)
+        refuses(*state, BRUME_PATTERN_PAVEMENT, pavements[i], 3);
+}
+
 /* Every pattern and warp that there is, with common numbers: as its own
  * function gives it, and never a fault where the point is none. */
 static const double some[14] = {2, 6, 2, .5, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -278,10 +297,12 @@ static const double some[14] = {2, 6, 2, .5, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
 static void test_every_kind(void **state)
 {
     const double odd[] = {0, 1e300, -INFINITY, NAN, 1e9, -.5};
+    const double squares[4] = {4, 6, 35, 0};
     for (int kind = 0; kind < PATTERN_COUNT; kind++) {
+        const double *numbers = kind == PATTERN_PAVEMENT ? squares : some;
         int count = pattern_numbers(kind);
         struct brume_function *f = begin(*state);
-        assert_true(brume_function_pattern(f, (enum brume_pattern)kind, some,
+        assert_true(brume_function_pattern(f, (enum brume_pattern)kind, numbers,
                                            count, NULL));
         brume_function_wave(f, BRUME_WAVE_RAMP, 1, 1, 0, NULL);
         int id = brume_add_function(*state, f, NULL);
@@ -293,8 +314,8 @@ static void test_every_kind(void **state)
             assert_true(isfinite(out[0]));
         }
         f = begin(*state);
-        assert_false(brume_function_pattern(f, (enum brume_pattern)kind, some,
-                                            count + 1, NULL));
+        assert_false(brume_function_pattern(f, (enum brume_pattern)kind,
+                                            numbers, count + 1, NULL));
         brume_function_free(f);
     }
     for (int kind = 0; kind < WARP_COUNT; kind++) {
@@ -466,9 +487,11 @@ static void test_any_calls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(color_map),  CASE(pigment_map), CASE(average),
-        CASE(list),       CASE(warps),       CASE(pattern),
-        CASE(every_kind), CASE(any_calls),   CASE(refused),
+        CASE(color_map),  CASE(pigment_map),
+        CASE(average),    CASE(list),
+        CASE(warps),      CASE(pattern),
+        CASE(every_kind), CASE(any_calls),
+        CASE(refused),    CASE(tiles_that_are_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
