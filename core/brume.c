@@ -176,6 +176,21 @@ int brume_add_light(brume_scene *scene, const struct brume_light *light,
     return APPEND(scene, lights, *light, err);
 }
 
+static bool check_pigment_function(const brume_scene *scene, int id,
+                                   struct brume_error *err)
+{
+    int parameters, results;
+
+    if (id == -1)
+        return true;
+    if (brume_function_arity(scene, id, &parameters, &results) &&
+        parameters == 3 && results == 5)
+        return true;
+    return brume_fail(err, BRUME_ERR_SCENE,
+                      "a pigment needs a function of 3 parameters with 5 "
+                      "results");
+}
+
 int brume_add_material(brume_scene *scene,
                        const struct brume_material *material,
                        struct brume_error *err)
@@ -187,7 +202,8 @@ int brume_add_material(brume_scene *scene,
         !check_finite(m->ambient, 3, "the finish's ambient", err) ||
         !check_finite(m->emission, 3, "the finish's emission", err) ||
         !check_not_negative(finish, 7, "a term of the finish", err) ||
-        !check_transform(m->pigment_transform, "a pigment", err))
+        !check_transform(m->pigment_transform, "a pigment", err) ||
+        !check_pigment_function(scene, m->function, err))
         return -1;
     return APPEND(scene, materials, *m, err);
 }

@@ -132,6 +132,8 @@ struct brume_material {
     enum brume_pigment_kind pigment;
     double color[2][5];
     double pigment_transform[3][4];     /* pattern space to world          */
+    int function;           /* from brume_add_function, of a point of pattern
+                               space, in place of the above; -1: none      */
     double ambient[3], emission[3];
     double diffuse, brilliance;
     double phong, phong_size;
@@ -140,7 +142,7 @@ struct brume_material {
 };
 #define BRUME_MATERIAL_INIT                                                   \
     {BRUME_PIGMENT_SOLID, {{0, 0, 0, 0, 0}, {1, 1, 1, 0, 0}}, BRUME_IDENTITY, \
-     {0.1, 0.1, 0.1}, {0, 0, 0}, 0.6, 1, 0, 40, 0, 0.05, 0}
+     -1, {0.1, 0.1, 0.1}, {0, 0, 0}, 0.6, 1, 0, 40, 0, 0.05, 0}
 BRUME_API int brume_add_material(brume_scene *scene,
                                  const struct brume_material *material,
                                  struct brume_error *err);

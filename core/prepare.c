@@ -105,6 +105,7 @@ static bool add_material(const struct prepare *job,
     if (!out)
         return false;
     out->checker = in->pigment == BRUME_PIGMENT_CHECKER;
+    out->function = in->function;
     for (int i = 0; i < 2; i++) {
         out->color[i] = color(in->color[i]);
         out->filter[i] = (float)in->color[i][3];

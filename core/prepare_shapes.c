@@ -188,7 +188,8 @@ static bool add_nodes(struct flat *f, const struct assembly *a,
     return true;
 }
 
-/* The scene's functions go along where an isosurface asks for their values. */
+/* The scene's functions go along where an isosurface or a pigment asks for
+ * their values. */
 static bool add_functions(const struct prepare *job, const struct assembly *a,
                           struct brume_error *err)
 {
@@ -197,6 +198,8 @@ static bool add_functions(const struct prepare *job, const struct assembly *a,
     bool needed = false;
     for (size_t i = 0; i < a->parts_count; i++)
         needed = needed || a->parts[i].leaf.kind == SOLID_ISOSURFACE;
+    for (size_t i = 0; i < s->materials_count; i++)
+        needed = needed || s->materials[i].function >= 0;
     if (!needed)
         return true;
     machine_instruction *code = FLAT_EXTEND(f, code, s->code_count, err);

@@ -11,11 +11,16 @@
 #include "parser/formula.h"
 
 /* Something that gives a value at each point: 5 numbers, or (`bare`) the
- * pattern's one. Its bytes tell it from others. */
+ * pattern's one; of a layered texture those below too. Its bytes tell it from
+ * others, so there are none that no member has. */
 struct field_key {
-    struct patterned on;
+    const struct pattern *pattern;
+    const struct map *map;
+    transform by;
     double color[5];
-    bool bare;
+    const struct texture *below;
+    transform below_by;
+    int uv_mapping, bare;
 };
 
 /* A function in the making. */
@@ -32,10 +37,10 @@ static struct field_key key_of(const struct patterned *on, const double *color,
     struct field_key key;
 
     memset(&key, 0, sizeof key);
-    key.on.pattern = on->pattern;
-    key.on.map = on->map;
-    key.on.by = on->by;
-    key.on.uv_mapping = on->uv_mapping;
+    key.pattern = on->pattern;
+    key.map = on->map;
+    key.by = on->by;
+    key.uv_mapping = on->uv_mapping;
     for (int i = 0; i < terms; i++)
         key.color[i] = color[i];
     key.bare = terms == 0;
@@ -52,16 +57,37 @@ static struct field_key density_key(const struct density *density)
     return key_of(&density->on, density->color, 3);
 }
 
+/* What a texture's colours are: of a patterned one, of those that it chooses
+ * from. */
+static struct field_key texture_key(const struct texture *texture)
+{
+    struct field_key key;
+
+    if (texture->on.map)
+        return key_of(&texture->on, texture->pigment.color, 5);
+    key = pigment_key(&texture->pigment);
+    key.below = texture->below;
+    if (texture->below)
+        key.below_by = texture->below_by;
+    return key;
+}
+
 static struct field_key entry_key(const struct map *map,
                                   const struct map_entry *entry)
 {
-    return map->kind == VALUE_DENSITY_MAP ? density_key(entry->node)
-                                          : pigment_key(entry->node);
+    switch (map->kind) {
+    case VALUE_DENSITY_MAP:
+        return density_key(entry->node);
+    case VALUE_TEXTURE_MAP:
+        return texture_key(entry->node);
+    default:
+        return pigment_key(entry->node);
+    }
 }
 
 static bool has_pattern(const struct field_key *key)
 {
-    return key->on.pattern && key->on.pattern->kind != PATTERN_NONE;
+    return key->pattern && key->pattern->kind != PATTERN_NONE;
 }
 
 static struct intern *known(struct parser *parser)
@@ -335,12 +361,12 @@ static bool write_inverse(struct writer *w, const transform *by)
 
 /* Turbulence comes before all maps and warps, wherever it is written: the
  * point goes through it last. */
-static bool write_place(struct writer *w, const struct patterned *on)
+static bool write_place(struct writer *w, const struct field_key *key)
 {
-    const struct pattern *pattern = on->pattern;
+    const struct pattern *pattern = key->pattern;
     struct numbers turbulence = {.count = 0};
 
-    if (!write_inverse(w, &on->by))
+    if (!write_inverse(w, &key->by))
         return false;
     for (const struct warp *warp = pattern->warps; warp; warp = warp->older) {
         struct numbers numbers = {.count = 0};
@@ -491,24 +517,117 @@ static bool write_color(struct writer *w, const double color[5])
 
 static bool write_field(struct writer *w, const struct field_key *key)
 {
-    const struct pattern *pattern = key->on.pattern;
+    const struct pattern *pattern = key->pattern;
 
     if (!has_pattern(key))
         return write_color(w, key->color);
-    if (key->on.uv_mapping) {
+    if (key->uv_mapping) {
         w->missing = "uv_mapping";
         return false;
     }
-    if (!write_point(w) || !write_place(w, &key->on))
+    if (!write_point(w) || !write_place(w, key))
         return false;
     if (pattern->kind == PATTERN_AVERAGE)
-        return write_map(w, key->on.map, true);
+        return write_map(w, key->map, true);
     if (key->bare)
         return write_value(w, pattern);
     return brume_function_copy(w->to, 3, w->err) && write_value(w, pattern) &&
-           (key->on.map ? write_map(w, key->on.map, false)
-                        : write_default_map(w, pattern));
+           (key->map ? write_map(w, key->map, false)
+                     : write_default_map(w, pattern));
 }
+
+/* ---- layers ------------------------------------------------------------ */
+
+static bool take(struct brume_function *to, int index, struct brume_error *err)
+{
+    return brume_function_parameter(to, index, err);
+}
+
+static bool apply(struct brume_function *to, enum brume_op op,
+                  struct brume_error *err)
+{
+    return brume_function_op(to, op, err);
+}
+
+/* max(0, 1 - filter - transmit) of the colour whose parameters begin there. */
+static bool write_own_part(struct brume_function *to, int first,
+                           struct brume_error *err)
+{
+    return brume_function_constant(to, 0, err) &&
+           brume_function_constant(to, 1, err) && take(to, first + 3, err) &&
+           apply(to, BRUME_OP_SUBTRACT, err) && take(to, first + 4, err) &&
+           apply(to, BRUME_OP_SUBTRACT, err) && apply(to, BRUME_OP_MAX, err);
+}
+
+/* min(1, filter + transmit) of the upper colour, times what `index` is. */
+static bool write_through(struct brume_function *to, int index,
+                          struct brume_error *err)
+{
+    return brume_function_constant(to, 1, err) && take(to, 3, err) &&
+           take(to, 4, err) && apply(to, BRUME_OP_ADD, err) &&
+           apply(to, BRUME_OP_MIN, err) && take(to, index, err) &&
+           apply(to, BRUME_OP_MULTIPLY, err);
+}
+
+/* own c + (filter c + transmit) below's own below's c, as if of the whole. */
+static bool write_channel(struct brume_function *to, int c,
+                          struct brume_error *err)
+{
+    return write_own_part(to, 0, err) && take(to, c, err) &&
+           apply(to, BRUME_OP_MULTIPLY, err) && take(to, c, err) &&
+           take(to, 3, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
+           take(to, 4, err) && apply(to, BRUME_OP_ADD, err) &&
+           write_own_part(to, 5, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
+           take(to, 5 + c, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
+           apply(to, BRUME_OP_ADD, err) &&
+           brume_function_constant(to, 1e-9, err) &&
+           brume_function_constant(to, 1, err) && write_through(to, 8, err) &&
+           apply(to, BRUME_OP_SUBTRACT, err) && write_through(to, 9, err) &&
+           apply(to, BRUME_OP_SUBTRACT, err) && apply(to, BRUME_OP_MAX, err) &&
+           apply(to, BRUME_OP_DIVIDE, err);
+}
+
+/* The function of a colour and the one below it; see cover in surface.c. */
+static int cover(struct parser *parser, struct brume_error *err)
+{
+    struct builder *builder = parser->builder;
+    struct brume_function *to;
+
+    if (builder->cover > 0)
+        return builder->cover - 1;
+    to = brume_function_new(parser->out->scene, 10, err);
+    if (!to)
+        return -1;
+    for (int c = 0; c < 3; c++)
+        write_channel(to, c, err);
+    write_through(to, 8, err);
+    write_through(to, 9, err);
+    builder->cover = brume_add_function(parser->out->scene, to, err) + 1;
+    return builder->cover - 1;
+}
+
+static struct field_key upper_key(const struct field_key *key)
+{
+    struct field_key upper = *key;
+
+    upper.below = NULL;
+    memset(&upper.below_by, 0, sizeof upper.below_by);
+    return upper;
+}
+
+static bool write_layers(struct writer *w, const struct field_key *key)
+{
+    struct field_key upper = upper_key(key), lower = texture_key(key->below);
+    int both = cover(w->parser, w->err);
+
+    return both >= 0 && write_point(w) &&
+           brume_function_call(w->to, id_of(w->parser, &upper), 3, w->err) &&
+           write_point(w) && write_inverse(w, &key->below_by) &&
+           brume_function_call(w->to, id_of(w->parser, &lower), 3, w->err) &&
+           brume_function_call(w->to, both, 10, w->err);
+}
+
+/* ---- parts first ------------------------------------------------------- */
 
 /* Its parts are functions by now. -1: `err`, or `missing`. */
 static int make(struct writer *w, const struct field_key *key)
@@ -516,7 +635,7 @@ static int make(struct writer *w, const struct field_key *key)
     int id = -1;
 
     w->to = brume_function_new(w->parser->out->scene, 3, w->err);
-    if (w->to && write_field(w, key))
+    if (w->to && (key->below ? write_layers(w, key) : write_field(w, key)))
         id = brume_add_function(w->parser->out->scene, w->to, w->err);
     else
         brume_function_free(w->to);
@@ -525,23 +644,27 @@ static int make(struct writer *w, const struct field_key *key)
     return id;
 }
 
-/* ---- parts first ------------------------------------------------------- */
-
 /* A part that is no function yet; false: all are. */
 static bool open_part(struct parser *parser, const struct field_key *key,
                       struct field_key *part)
 {
-    const struct map *map = key->on.map;
+    const struct map *map = key->map;
 
+    if (key->below) {
+        *part = upper_key(key);
+        if (id_of(parser, part) < 0)
+            return true;
+        *part = texture_key(key->below);
+        return id_of(parser, part) < 0;
+    }
     if (!has_pattern(key))
         return false;
-    if (key->on.pattern->kind == PATTERN_PIGMENT) {
-        *part = pigment_key(key->on.pattern->pigment);
+    if (key->pattern->kind == PATTERN_PIGMENT) {
+        *part = pigment_key(key->pattern->pigment);
         if (id_of(parser, part) < 0)
             return true;
     }
-    if (!map ||
-        (map->kind != VALUE_PIGMENT_MAP && map->kind != VALUE_DENSITY_MAP))
+    if (!map || map->kind == VALUE_COLOR_MAP)
         return false;
     for (const struct map_entry *e = map->first; e; e = e->next) {
         *part = entry_key(map, e);
@@ -578,14 +701,22 @@ static int make_all(struct writer *w, const struct field_key *root)
     return id;
 }
 
-int build_pigment_function(struct parser *parser, const struct pigment *pigment,
-                           const transform *by, struct brume_error *err)
+/* What is too much for core it cannot do either. */
+int build_texture_function(struct parser *parser, const struct texture *texture)
 {
-    struct pigment placed = *pigment;
-    struct writer writer = {.parser = parser, .err = err};
+    struct brume_error err = {0};
+    struct writer writer = {.parser = parser, .err = &err};
+    struct field_key key = texture_key(texture);
 
-    placed.on.by = transform_then(&pigment->on.by, by);
-    struct field_key key = pigment_key(&placed);
+    return make_all(&writer, &key);
+}
+
+int build_density_function(struct parser *parser, const struct density *density)
+{
+    struct brume_error err = {0};
+    struct writer writer = {.parser = parser, .err = &err};
+    struct field_key key = density_key(density);
+
     return make_all(&writer, &key);
 }
 

@@ -58,13 +58,10 @@ static void lacks_of_texture(struct parser *parser,
                              const struct texture *texture, struct location at)
 {
     if (texture->below)
-        build_lacks(parser, "layered textures", at);
+        build_lacks(parser, "the finishes of lower layers", at);
     for (; texture; texture = texture->below) {
         if (has_pattern(&texture->on))
-            build_lacks(parser, "patterned textures", at);
-        if (has_pattern(&texture->pigment.on) &&
-            !surface_checker(&texture->pigment))
-            build_lacks(parser, "patterned pigments", at);
+            build_lacks(parser, "finishes and normals by patterns", at);
         if (has_pattern(&texture->normal.on))
             build_lacks(parser, "normals", at);
         lacks_of_finish(parser, &texture->finish, at);
@@ -76,9 +73,6 @@ static void lacks_of_interior(struct parser *parser,
                               const struct interior *interior, bool opaque,
                               struct location at)
 {
-    for (int i = 0; i < interior->count; i++)
-        if (interior->media[i]->patterned)
-            build_lacks(parser, "patterned densities", at);
     if (opaque)
         return;
     if (interior->ior != 1)
@@ -95,6 +89,7 @@ void build_lacks_of(struct parser *parser, const struct object *object,
                     const struct texture *texture,
                     const struct interior *interior)
 {
+    parser->builder->placed_at = object->at;
     lacks_of_texture(parser, texture, object->at);
     if (object->inner.what)
         build_lacks(parser, "interior textures", object->at);

@@ -167,13 +167,14 @@ static void open_media(struct parser *parser, struct frame *frame)
 static void add_density(struct parser *parser, struct media *media,
                         const struct density *density, struct location at)
 {
-    for (int i = 0; i < 3; i++)
+    bool grid = model_density_is_grid(density);
+
+    for (int i = 0; i < 3 && !model_density_is_patterned(density); i++)
         media->tint[i] *= density->color[i];
-    media->patterned |= model_density_is_patterned(density);
-    if (!model_density_is_grid(density))
+    if (!grid && !model_density_is_patterned(density))
         return;
     if (media->densities == BRUME_MAX_DENSITIES)
-        parser_error(parser, at, "a media takes %d densities with files",
+        parser_error(parser, at, "a media takes %d densities with patterns",
                      BRUME_MAX_DENSITIES);
     else
         media->density[media->densities++] = *density;

@@ -32,145 +32,6 @@ struct placing {
     size_t first, clips; /* of builder.part: its parts, its clips   */
 };
 
-/* ---- one time to core -------------------------------------------------- */
-
-enum { SENT_MATERIAL, SENT_FIELD, SENT_MEDIUM, SENT_INTERIOR };
-
-static int remember(struct parser *parser, int what, const void *bytes,
-                    size_t size, int id)
-{
-    if (id >= 0)
-        intern_keep(&parser->builder->intern[what], &parser->arena, bytes, size,
-                    id);
-    return id;
-}
-
-static int sent(struct parser *parser, int what, const void *bytes, size_t size)
-{
-    return intern_find(&parser->builder->intern[what], bytes, size);
-}
-
-static int send_material(struct parser *parser,
-                         const struct placed_texture *worn,
-                         struct brume_error *err)
-{
-    struct brume_material material;
-    int id;
-
-    if (model_is_invisible(worn->what))
-        return -1;
-    model_material(worn->what, &worn->by, &material);
-    id = sent(parser, SENT_MATERIAL, &material, sizeof material);
-    if (id >= 0)
-        return id;
-    id = brume_add_material(parser->out->scene, &material, err);
-    return remember(parser, SENT_MATERIAL, &material, sizeof material, id);
-}
-
-static int send_field(struct parser *parser, const struct density *density,
-                      const transform *by, struct brume_error *err)
-{
-    transform placing = transform_identity();
-    struct brume_field field;
-    int id;
-
-    memset(&field, 0, sizeof field);
-    field.kind = BRUME_FIELD_CONSTANT;
-    field.scale = density->color[0];
-    field.grid = -1;
-    if (model_density_is_grid(density)) {
-        const struct pattern *pattern = density->on.pattern;
-        field.kind = BRUME_FIELD_GRID;
-        field.grid = pattern->grid;
-        placing = transform_then(&pattern->grid_by, &density->on.by);
-        placing = transform_then(&placing, by);
-    }
-    memcpy(field.transform, placing.m, sizeof placing.m);
-    id = sent(parser, SENT_FIELD, &field, sizeof field);
-    if (id >= 0)
-        return id;
-    id = brume_add_field(parser->out->scene, &field, err);
-    return remember(parser, SENT_FIELD, &field, sizeof field, id);
-}
-
-static bool send_fire(struct parser *parser, const struct fire *fire,
-                      const transform *by, struct brume_fire *to,
-                      struct brume_error *err)
-{
-    to->on = fire->on;
-    to->temperature = to->amount = -1;
-    if (!fire->on)
-        return true;
-    to->kelvin_scale = fire->kelvin[0];
-    to->kelvin_offset = fire->kelvin[1];
-    to->intensity = fire->intensity;
-    to->reference = fire->reference;
-    to->brightness = (enum brume_brightness)fire->brightness;
-    to->additive = fire->additive != 0;
-    to->temperature = send_field(parser, &fire->temperature, by, err);
-    if (to->temperature < 0)
-        return false;
-    if (fire->has_amount)
-        to->amount = send_field(parser, &fire->amount, by, err);
-    return !fire->has_amount || to->amount >= 0;
-}
-
-/* A density's colour scales what the medium does, not the fire in it. */
-static int send_medium(struct parser *parser, const struct media *media,
-                       const transform *by, struct brume_error *err)
-{
-    struct brume_medium to;
-    int id;
-
-    memset(&to, 0, sizeof to);
-    for (int i = 0; i < 3; i++) {
-        to.absorption[i] = media->absorption[i] * media->tint[i];
-        to.emission[i] = media->emission[i] * media->tint[i];
-        to.scattering[i] = media->scattering[i] * media->tint[i];
-    }
-    to.phase = (enum brume_phase)media->type;
-    to.eccentricity = media->eccentricity;
-    to.extinction = media->extinction;
-    to.densities = media->densities;
-    for (int i = 0; i < BRUME_MAX_DENSITIES; i++) {
-        to.density[i] = -1;
-        if (i >= media->densities)
-            continue;
-        struct density plain = media->density[i];
-        plain.color[0] = 1;
-        to.density[i] = send_field(parser, &plain, by, err);
-        if (to.density[i] < 0)
-            return -1;
-    }
-    if (!send_fire(parser, &media->fire, by, &to.fire, err))
-        return -1;
-    id = sent(parser, SENT_MEDIUM, &to, sizeof to);
-    if (id >= 0)
-        return id;
-    id = brume_add_medium(parser->out->scene, &to, err);
-    return remember(parser, SENT_MEDIUM, &to, sizeof to, id);
-}
-
-static int send_interior(struct parser *parser,
-                         const struct media *const *media, int count,
-                         const transform *by, struct brume_error *err)
-{
-    int list[BRUME_MAX_INTERIOR_MEDIA] = {0};
-    size_t size = (size_t)count * sizeof *list;
-    int id;
-
-    for (int i = 0; i < count; i++) {
-        list[i] = send_medium(parser, media[i], by, err);
-        if (list[i] < 0)
-            return -1;
-    }
-    id = sent(parser, SENT_INTERIOR, list, size);
-    if (id >= 0)
-        return id;
-    id = brume_add_interior(parser->out->scene, list, count, err);
-    return remember(parser, SENT_INTERIOR, list, size, id);
-}
-
 /* Core copies a mesh, so ours goes when its first user is placed. */
 static int send_mesh(struct parser *parser, struct model_mesh *mesh,
                      struct brume_error *err)
@@ -260,11 +121,11 @@ static bool dress(struct parser *parser, const struct object *object,
     build_lacks_of(parser, object, worn->what, has->interior.what);
     shape->hollow = has->hollow;
     shape->shadow = has->shadow;
-    shape->material = send_material(parser, worn, err);
+    shape->material = build_send_material(parser, worn, err);
     if (shows_media(parser, object, has))
-        shape->interior = send_interior(parser, has->interior.what->media,
-                                        has->interior.what->count,
-                                        &has->interior.by, err);
+        shape->interior = build_send_interior(parser, has->interior.what->media,
+                                              has->interior.what->count,
+                                              &has->interior.by, err);
     return err->code == BRUME_OK;
 }
 
@@ -504,8 +365,8 @@ bool build_place_atmosphere(struct parser *parser)
 
     if (builder->atmospheres == 0)
         return true;
-    int id = send_interior(parser, builder->atmosphere, builder->atmospheres,
-                           &here, &err);
+    int id = build_send_interior(parser, builder->atmosphere,
+                                 builder->atmospheres, &here, &err);
     if (id >= 0 && brume_set_atmosphere(parser->out->scene, id, &err))
         return true;
     return parser_relay(parser, builder->atmosphere_at, &err);

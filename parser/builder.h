@@ -220,8 +220,10 @@ struct builder {
     struct index_list indices[3];   /* of the open mesh2: faces, normals,
                                        uvs                                 */
     int64_t announced, listed;      /* items of its open list              */
-    struct intern intern[4];        /* what core has: see build_place.c    */
+    struct intern intern[4];        /* what core has: see build_send.c     */
     struct intern functions;        /* and build_function.c                */
+    int cover;                      /* function of two layers, + 1; or 0   */
+    struct location placed_at;      /* of the object that is being placed  */
     double *number;                 /* of long lists that are being read   */
     size_t numbers, number_room;
     struct placing *placing;        /* the objects being placed            */
@@ -333,11 +335,21 @@ void build_shape_open(struct parser *parser, struct frame *frame);
 int build_place_query(struct parser *parser, const struct object *object,
                       struct location at);
 
-/* The pigment as a function of 3 parameters with 5 results, `by` applied
- * after its own maps. -1: an error, or core cannot do it: err is clear. */
-int build_pigment_function(struct parser *parser,
-                           const struct pigment *pigment, const transform *by,
-                           struct brume_error *err);
+/* Ids of core; -1: nothing shows (material), or err is set. */
+int build_send_material(struct parser *parser,
+                        const struct placed_texture *worn,
+                        struct brume_error *err);
+int build_send_interior(struct parser *parser, const struct media *const *media,
+                        int count, const transform *by,
+                        struct brume_error *err);
+/* The density, with its own maps, as a function of 3 parameters whose first
+ * three results are its colour. -1: core cannot do it. */
+int build_density_function(struct parser *parser,
+                           const struct density *density);
+/* The colours of a texture, with its own maps, as a function of 3 parameters
+ * with 5 results. -1: core cannot do it. */
+int build_texture_function(struct parser *parser,
+                           const struct texture *texture);
 
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,

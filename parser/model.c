@@ -68,6 +68,7 @@ void model_mean_density(struct density *density)
     if (!model_density_is_patterned(density))
         return;
     surface_mean(&density->on, color);
+    density->colored = surface_is_colored(&density->on);
     memcpy(density->color, color, sizeof density->color);
 }
 

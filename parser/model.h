@@ -27,8 +27,8 @@ transform model_transform_result(const struct transform_block *block);
 /* One factor of a medium's density: a colour, or a pattern; times a colour. */
 struct density {
     struct patterned on;
-    double color[3];            /* of a pattern that is not drawn: the mean
-                                   of what it has                          */
+    double color[3];            /* of a pattern: the mean of what it has   */
+    bool colored;               /* a pattern's colours are not all grey    */
 };
 /* Of a pattern that core has as a grid: a file without a map of its own. */
 bool model_density_is_grid(const struct density *density);
@@ -59,7 +59,6 @@ struct media {
     double tint[3];             /* product of all the densities' colours   */
     struct density density[BRUME_MAX_DENSITIES];
     int densities;
-    bool patterned;             /* some density is a pattern, not a grid   */
     struct fire fire;
 };
 /* Applies `by` to the densities and the fire's fields that are there now. */

@@ -165,6 +165,28 @@ void surface_mean(const struct patterned *on, double color[5])
         mean_of_default(on->pattern, color);
 }
 
+static bool is_gray(const double *color)
+{
+    return color[0] == color[1] && color[1] == color[2];
+}
+
+bool surface_is_colored(const struct patterned *on)
+{
+    const struct map *map = on->map;
+    const struct map_entry *entry = map ? map->first : NULL;
+    struct brume_map usual = surface_default_map(on->pattern);
+    bool colored = false;
+
+    for (; entry; entry = entry->next) {
+        const struct density *density = entry->node;
+        colored |= !is_gray(entry_color(map, entry));
+        colored |= map->kind == VALUE_DENSITY_MAP && density->colored;
+    }
+    for (int i = 0; !map && i < usual.count; i++)
+        colored |= !is_gray(usual.values + 5 * i);
+    return colored;
+}
+
 void surface_mean_pigment(struct pigment *pigment)
 {
     if (pigment->on.pattern && pigment->on.pattern->kind != PATTERN_NONE)
@@ -303,6 +325,7 @@ void model_material(const struct texture *texture, const transform *by,
     const struct finish *finish = &texture->finish;
 
     memset(out, 0, sizeof *out);
+    out->function = -1;
     colors_of(texture, by, out);
     memcpy(out->ambient, finish->ambient, sizeof out->ambient);
     memcpy(out->emission, finish->emission, sizeof out->emission);

@@ -238,6 +238,9 @@ const struct map *surface_checker(const struct pigment *pigment);
 /* Of densities the first three count. */
 void surface_mean(const struct patterned *on, double color[5]);
 
+/* Whether a density chooses from what is not grey. */
+bool surface_is_colored(const struct patterned *on);
+
 void surface_texture_transform(struct texture *texture, const transform *by);
 
 /* Nothing of a surface shows: it lets all light through and has no highlight.

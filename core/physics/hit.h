@@ -2,6 +2,7 @@
 #ifndef CORE_PHYSICS_HIT_H
 #define CORE_PHYSICS_HIT_H
 #include "core/physics/bvh.h"
+#include "core/physics/machine.h"
 #include "core/physics/surface.h"
 
 typedef struct {
@@ -76,18 +77,59 @@ HD int32_t hit_material(const flat_scene *s, const ray_hit *h)
     return h->seen ? s->shapes[h->shape].material : -1;
 }
 
-HD int hit_checker(const flat_material *m, vec3 p)
+/* A pigment at a point: the light that goes back takes `color`, what comes
+ * through filter color + transmit. */
+typedef struct {
+    rgb color;
+    float filter, transmit;
+} hit_color;
+
+HD_APART hit_color hit_pattern(const flat_scene *s, const flat_material *m,
+                               vec3 p)
 {
-    return m->checker ? surface_checker(affine_point(&m->to_pattern, p)) : 0;
+    float r[MACHINE_REGISTERS];
+    machine code;
+    hit_color out;
+    vec3 q = affine_point(&m->to_pattern, p);
+    code.code = s->code;
+    code.functions = s->functions;
+    code.pool = s->pool;
+    code.grids = s;
+    r[0] = q.x;
+    r[1] = q.y;
+    r[2] = q.z;
+    machine_run(&code, m->function, r);
+    for (int i = 0; i < 5; i++)
+        r[i] = fabsf(r[i]) < 1e30f ? r[i] : 0.0f;
+    out.color = rgb_make(r[0], r[1], r[2]);
+    out.filter = r[3];
+    out.transmit = r[4];
+    return out;
+}
+
+HD hit_color hit_pigment(const flat_scene *s, const flat_material *m, vec3 p)
+{
+    hit_color out;
+    if (m->function >= 0)
+        return hit_pattern(s, m, p);
+    int i = m->checker ? surface_checker(affine_point(&m->to_pattern, p)) : 0;
+    out.color = m->color[i];
+    out.filter = m->filter[i];
+    out.transmit = m->transmit[i];
+    return out;
+}
+
+HD rgb hit_pass(const hit_color *c)
+{
+    return rgb_add(rgb_scale(c->color, c->filter), rgb_gray(c->transmit));
 }
 
 HD rgb hit_transparency(const flat_scene *s, const bvh_ray *r,
                         const ray_hit *h)
 {
     const flat_material *m = &s->materials[s->shapes[h->shape].material];
-    int i = hit_checker(m, hit_position(s, r, h));
-    return rgb_add(rgb_scale(m->color[i], m->filter[i]),
-                   rgb_gray(m->transmit[i]));
+    hit_color c = hit_pigment(s, m, hit_position(s, r, h));
+    return hit_pass(&c);
 }
 
 /* The hit's shape has a material. */
@@ -106,12 +148,10 @@ HD hit_point hit_resolve(const flat_scene *s, const bvh_ray *r,
         out.ng = vec3_scale(out.ng, -1.0f);
     if (vec3_dot(out.ns, out.ng) < 0.0f)
         out.ns = vec3_scale(out.ns, -1.0f);
-    int i = hit_checker(m, out.p);
-    out.color = m->color[i];
-    out.opacity = hd_min(hd_max(1.0f - m->filter[i] - m->transmit[i], 0.0f),
-                        1.0f);
-    out.pass = rgb_add(rgb_scale(out.color, m->filter[i]),
-                       rgb_gray(m->transmit[i]));
+    hit_color c = hit_pigment(s, m, out.p);
+    out.color = c.color;
+    out.opacity = hd_min(hd_max(1.0f - c.filter - c.transmit, 0.0f), 1.0f);
+    out.pass = hit_pass(&c);
     return out;
 }
 

@@ -142,6 +142,9 @@ typedef struct {
 
 typedef struct {
     int32_t checker;
+    int32_t function;       /* of the pigment, at a point of to_pattern's
+                               space: red, green, blue, filter, transmit; or
+                               -1                                          */
     rgb color[2];
     float filter[2], transmit[2];
     affine to_pattern;
@@ -222,7 +225,7 @@ typedef struct {
     X(vec3, normals)                                                          \
     X(csg_node, csg)                                                          \
     X(double, numbers)                                                        \
-    X(machine_instruction, code)    /* of functions of isosurfaces */         \
+    X(machine_instruction, code)    /* of functions */                        \
     X(machine_function, functions)                                            \
     X(float, pool)                                                            \
     X(double, exact_pool)       /* of queries */                              \

@@ -455,7 +455,7 @@ static void lacks(void **state)
                    "sphere { 0, 1 normal { bumps } }\n"
                    "sphere { 0, 1 pigment { rgbf 1 } interior { ior 2 } }\n",
                    2, 1,
-                   "lacks what is not drawn yet: patterned pigments, normals, "
+                   "lacks what is not drawn yet: normals, "
                    "reflection, iridescence, refraction");
     assert_ptr_equal(first_of(DIAG_WARNING), diag.first);
     assert_null(diag.first->next);

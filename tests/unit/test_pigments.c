@@ -92,6 +92,79 @@ static void functions_give_what_pov_ray_prints(void **state)
     assert_true(bodies > 60);
 }
 
+/* ---- what is drawn ----------------------------------------------------- */
+
+/* The pixel (x, y) of 4 by 4, each of a unit square of the plane z = 0.5 from
+ * <0, 0> at the lower left, whose texture is given and not lit. */
+static void check_pixel(const char *texture, int x, int y, double red,
+                        double green, double blue)
+{
+    char text[2000];
+    struct parse_input in = {
+        .path = "scene.pov", .text = text, .ambient = PARSE_AMBIENT_INIT};
+    struct parse_result result = {0};
+    struct brume_options options = BRUME_OPTIONS_INIT;
+    struct brume_frame frame = {0};
+    struct diag diag;
+
+    snprintf(text, sizeof text,
+             "#default { finish { ambient 1 diffuse 0 } }\n"
+             "camera { orthographic location <2, 2, -1> right 4*x up 4*y }\n"
+             "plane { z, .5 %s }\n",
+             texture);
+    in.length = strlen(text);
+    diag_init(&diag);
+    if (!parse_scene(&in, &result, &diag))
+        fail_msg("%s: %s", texture, diag.first->text);
+    options.width = options.height = 4;
+    options.spp = 4;
+    options.backend = BRUME_BACKEND_CPU;
+    assert_true(brume_render(result.scene, &options, &frame, NULL));
+    const float *got = frame.radiance + 3 * (4 * (3 - y) + x);
+    if (fabs(got[0] - red) > 1e-4 || fabs(got[1] - green) > 1e-4 ||
+        fabs(got[2] - blue) > 1e-4)
+        fail_msg("%s: %g %g %g", texture, got[0], got[1], got[2]);
+    brume_frame_free(&frame);
+    brume_scene_free(result.scene);
+    diag_release(&diag);
+}
+
+static void pigments_are_drawn(void **state)
+{
+    const char *steps = "pigment { gradient y color_map { [.25 rgb x]"
+                        "  [.25 .5 color rgb y color rgb y] [.5 rgb z] }"
+                        "  scale 4 warp { repeat x } }";
+    const char *nested = "pigment { checker pigment { rgb z } pigment {"
+                         "  checker rgb x rgb y scale 2 translate y } }";
+    (void)state;
+
+    check_pixel(steps, 2, 0, 1, 0, 0);
+    check_pixel(steps, 1, 1, 0, 1, 0);
+    check_pixel(steps, 3, 2, 0, 0, 1);
+    check_pixel(nested, 0, 0, 0, 0, 1);
+    check_pixel(nested, 1, 0, 0, 1, 0);
+    check_pixel(nested, 2, 1, 0, 1, 0);
+    check_pixel(nested, 0, 1, 1, 0, 0);
+}
+
+static void textures_are_drawn(void **state)
+{
+    const char *layers =
+        "texture { pigment { checker rgb x rgb y } translate x }"
+        "texture { pigment { checker rgb z rgbt <0, 0, 1, .5> scale 2 } }";
+    const char *map = "texture { gradient x texture_map {"
+                      "  [.5 pigment { checker rgb x rgb y scale .5 }]"
+                      "  [.5 pigment { rgb z }] } scale 4 }";
+    (void)state;
+
+    check_pixel(layers, 0, 0, 0, 0, 1);
+    check_pixel(layers, 2, 0, 0, 0.5, 0.5);
+    check_pixel(layers, 3, 0, 0.5, 0, 0.5);
+    check_pixel(map, 3, 0, 0, 0, 1);
+    check_pixel(map, 0, 0, 1, 0, 0);
+    check_pixel(map, 0, 2, 0, 1, 0);
+}
+
 /* No recursion: what is too deep for core is an error. */
 static void maps_nest_deep(void **state)
 {
@@ -115,6 +188,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(functions_give_what_pov_ray_prints),
+        cmocka_unit_test(pigments_are_drawn),
+        cmocka_unit_test(textures_are_drawn),
         cmocka_unit_test(maps_nest_deep),
     };
 
