@@ -11,6 +11,7 @@ CUDA    ?= $(if $(shell command -v $(NVCC) 2>/dev/null),1,0)
 # The GPU at hand; without one, code that any from sm_75 on can translate.
 CUDA_ARCH ?= $(if $(shell command -v nvidia-smi 2>/dev/null),native,sm_75)
 SAN     ?= 0
+FUZZ    ?= 0
 WERROR  ?= 1
 V       ?= 0
 
@@ -23,6 +24,14 @@ ifeq ($(SAN),1)
 B       := build/san
 OPT     := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer \
            -fno-sanitize-recover=undefined
+endif
+# What is fuzzed tells which of its branches were taken; clang alone can.
+ifeq ($(FUZZ),1)
+B       := build/fuzz
+CC      := clang
+CXX     := clang++
+OPT     := -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=undefined \
+           -fsanitize=fuzzer-no-link,address,undefined
 endif
 WARN    := -Wall -Wextra -Wpedantic -Wvla $(if $(filter 1,$(WERROR)),-Werror)
 # The bytes of a picture must not depend on the processor: no contraction of
@@ -59,6 +68,7 @@ PARSER   := $(call objects,$(wildcard parser/*.c)) $(GENERATED)
 FRONT    := $(filter-out $(B)/parser/main.o,$(PARSER))
 UNITS    := $(call programs,tests/unit)
 TOOLS    := $(call programs,tests/tools) $(call programs,tests/bench)
+FUZZERS  := $(call programs,tests/fuzz)
 ifneq ($(CUDA_SRC),)
 CORE     += $(call objects,$(CUDA_SRC))
 CPPFLAGS += -DBRUME_CUDA
@@ -67,7 +77,8 @@ endif
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all unit tools setup demo test test-all do-demo do-test do-test-all \
+.PHONY: all unit tools fuzzers setup demo test test-all fuzz \
+        do-demo do-test do-test-all \
         lint format install bundle clean
 all: $(B)/brume
 
@@ -105,7 +116,14 @@ $(UNITS) $(TOOLS): %: %.o $(FRONT) $(B)/libbrume.a
 unit: $(UNITS)
 tools: $(TOOLS)
 
--include $(patsubst %.o,%.d,$(LIB) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d)
+# Programs that give inputs of their own making to a part of the program;
+# OpenVDB asks for the sanitizers of C++.
+$(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a
+	$(call run,link,$(CPP) $(CXXFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LIBS))
+fuzzers: $(FUZZERS)
+
+-include $(patsubst %.o,%.d,$(LIB) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
+    $(FUZZERS:=.d)
 
 # ---- the two commands
 # The variables above are made when make starts, before there may be a
@@ -128,6 +146,12 @@ do-test: $(B)/brume $(UNITS) $(TOOLS)
 
 do-test-all: $(B)/brume $(UNITS) $(TOOLS)
 	@B=$(B) tests/run --all
+
+# FUZZ_RUNS inputs for each of the programs of tests/fuzz/.
+FUZZ_RUNS ?= 200000
+fuzz:
+	@+$(MAKE) --no-print-directory FUZZ=1 CUDA=0 WERROR=0 fuzzers
+	@B=build/fuzz tests/fuzz/run $(FUZZ_RUNS)
 
 # ---- house-keeping
 
