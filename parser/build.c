@@ -305,6 +305,8 @@ void build_open(struct parser *parser, const struct name *word,
     kind = kind_of(word->text, around);
     if (may_open(parser, kind, word->text, at))
         open(parser, kind, at);
+    else /* There is no frame for what its braces hold. */
+        parser->failed = true;
 }
 
 void build_open_default(struct parser *parser, struct location at)

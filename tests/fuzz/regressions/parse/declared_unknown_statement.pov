@@ -1,0 +1,1 @@
+#declare A = sky_sphere { pigment { rgb 1 } };
