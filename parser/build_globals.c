@@ -10,15 +10,26 @@ static const char *const unit_words[] = {"pov", "physical", NULL};
 static const char *const integrator_words[] = {"path", "photon", "progressive",
                                                NULL};
 
-static const char finish_note[] = "there are no finishes that it is for yet";
+static const char *const charset_words[] = {"ascii", "utf8", "sys", NULL};
+static const char picture_note[] = "Brume has no pictures of that kind";
 
 #define GLOBAL(word, kind, start, low, high, open, given)                      \
     PARAM_ROW(#word, kind, start, low, high, open, given, struct globals, word)
 
 const struct param build_globals_params[] = {
     GLOBAL(ambient_light, PARAM_RGB, 1, -INFINITY, INFINITY, 0, 0),
-    GLOBAL(assumed_gamma, PARAM_FLOAT, 1, 0, INFINITY, PARAM_ABOVE,
-           GLOBAL_GAMMA),
+    /* A number, or the word srgb: about 2.2. */
+    {.word = "assumed_gamma",
+     .kind = PARAM_FLOAT,
+     .start = {1},
+     .high = INFINITY,
+     .open = PARAM_ABOVE,
+     .given = GLOBAL_GAMMA,
+     .alone = 2.2,
+     .offset = offsetof(struct globals, assumed_gamma)},
+    {.word = "srgb", .kind = PARAM_IGNORED},
+    PARAM_WORDS("charset", charset_words, 0, struct globals, charset),
+    PARAM_WITHOUT("hf_gray_16", picture_note),
     GLOBAL(max_trace_level, PARAM_INTEGER, 5, 1, 256, 0, 0),
     GLOBAL(adc_bailout, PARAM_FLOAT, 1.0 / 255, 0, INFINITY, 0, 0),
     GLOBAL(accuracy, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
@@ -26,8 +37,8 @@ const struct param build_globals_params[] = {
     PARAM_WITHOUT("max_intersections", "Brume has no such bound"),
     GLOBAL(number_of_waves, PARAM_INTEGER, 10, 1, 100, 0, 0),
     GLOBAL(noise_generator, PARAM_INTEGER, 2, 1, 3, 0, 0),
-    PARAM_WITHOUT("irid_wavelength", finish_note),
-    PARAM_WITHOUT("mm_per_unit", finish_note),
+    GLOBAL(irid_wavelength, PARAM_RGB, 0.25, 0, INFINITY, 0, 0),
+    GLOBAL(mm_per_unit, PARAM_FLOAT, 10, 0, INFINITY, PARAM_ABOVE, 0),
     PARAM_WORDS("integrator", integrator_words, GLOBAL_INTEGRATOR,
                 struct globals, integrator),
     PARAM_WORDS("light_units", unit_words, 0, struct globals, light_units),
@@ -108,6 +119,126 @@ const struct statement build_statement_transport = {
     .close = close_transport,
 };
 
+/* ---- what POV-Ray finds indirect light with ---------------------------- */
+
+#define PHOTONS(word, kind, start)                                             \
+    PARAM_ANY(#word, kind, start, 0, struct photons, word)
+
+static const struct param photons_params[] = {
+    PHOTONS(spacing, PARAM_FLOAT, 0),
+    PHOTONS(count, PARAM_FLOAT, 0),
+    PHOTONS(gather, PARAM_PAIR, 0),
+    PHOTONS(media, PARAM_PAIR, 0),
+    PHOTONS(jitter, PARAM_FLOAT, 0.4),
+    PHOTONS(autostop, PARAM_FLOAT, 0),
+    PHOTONS(expand_thresholds, PARAM_PAIR, 0),
+    PHOTONS(radius, PARAM_PAIR, 0),
+    PHOTONS(steps, PARAM_FLOAT, 0),
+    PHOTONS(max_trace_level, PARAM_FLOAT, 0),
+    PHOTONS(adc_bailout, PARAM_FLOAT, 0),
+    PARAM_OWN("save_file", 1, 1, 0),
+    PARAM_OWN("load_file", 1, 1, 0),
+    {0}};
+
+static void open_photons(struct parser *parser, struct frame *frame)
+{
+    struct globals *globals = &parser->builder->globals;
+
+    globals->has_photons = true;
+    frame->node = &globals->photons;
+}
+
+static void photon_file(struct parser *parser, struct frame *frame,
+                        const struct param *row, const struct value *value,
+                        int count, struct location at)
+{
+    (void)frame;
+    (void)count;
+    if (value->kind != VALUE_STRING)
+        parser_mistake(parser, at, "'%s' needs the name of a file", row->word);
+}
+
+const struct statement build_statement_photons = {
+    .word = "photons",
+    .within = in_globals,
+    .params = photons_params,
+    .open = open_photons,
+    .values = photon_file,
+};
+
+#define RADIOSITY(word, kind, start)                                           \
+    PARAM_ANY(#word, kind, start, 0, struct radiosity, word)
+#define RADIOSITY_SWITCH(word, start)                                          \
+    PARAM_ROW(#word, PARAM_SWITCH, start, 0, 1, 0, 0, struct radiosity, word)
+
+static const struct param radiosity_params[] = {
+    RADIOSITY(adc_bailout, PARAM_FLOAT, 0.01),
+    RADIOSITY_SWITCH(always_sample, 1),
+    RADIOSITY(brightness, PARAM_FLOAT, 1),
+    RADIOSITY(count, PARAM_PAIR, 35),
+    RADIOSITY(error_bound, PARAM_FLOAT, 1.8),
+    RADIOSITY(gray_threshold, PARAM_FLOAT, 0),
+    RADIOSITY(importance, PARAM_FLOAT, 1),
+    RADIOSITY(low_error_factor, PARAM_FLOAT, 0.5),
+    RADIOSITY(max_sample, PARAM_FLOAT, -1),
+    RADIOSITY(maximum_reuse, PARAM_FLOAT, 0.2),
+    RADIOSITY_SWITCH(media, 0),
+    RADIOSITY(minimum_reuse, PARAM_FLOAT, 0.015),
+    RADIOSITY(nearest_count, PARAM_PAIR, 5),
+    RADIOSITY_SWITCH(normal, 0),
+    RADIOSITY(pretrace_end, PARAM_FLOAT, 0.04),
+    RADIOSITY(pretrace_start, PARAM_FLOAT, 0.08),
+    RADIOSITY(recursion_limit, PARAM_FLOAT, 2),
+    RADIOSITY_SWITCH(subsurface, 0),
+    PARAM_OWN("save_file", 1, 1, 0),
+    PARAM_OWN("load_file", 1, 1, 0),
+    {0}};
+
+static void open_radiosity(struct parser *parser, struct frame *frame)
+{
+    struct globals *globals = &parser->builder->globals;
+
+    param_defaults(radiosity_params, &globals->radiosity);
+    globals->has_radiosity = true;
+    frame->node = &globals->radiosity;
+}
+
+const struct statement build_statement_radiosity = {
+    .word = "radiosity",
+    .within = in_globals,
+    .params = radiosity_params,
+    .open = open_radiosity,
+    .values = photon_file,
+};
+
+static const struct param subsurface_params[] = {
+    PARAM_ANY("samples", PARAM_PAIR, 50, 0, struct subsurface, samples),
+    PARAM_ANY("radiosity", PARAM_SWITCH, 0, 0, struct subsurface, radiosity),
+    {0}};
+
+static void open_subsurface(struct parser *parser, struct frame *frame)
+{
+    frame->node = &parser->builder->globals.subsurface;
+}
+
+const struct statement build_statement_global_subsurface = {
+    .word = "subsurface",
+    .within = in_globals,
+    .params = subsurface_params,
+    .open = open_subsurface,
+};
+
+static void globals_lacks(struct parser *parser)
+{
+    const struct globals *globals = &parser->builder->globals;
+    const struct location here = {0, UINT32_MAX};
+
+    if (globals->has_photons)
+        build_lacks(parser, "POV-Ray's photons", here);
+    if (globals->has_radiosity)
+        build_lacks(parser, "radiosity", here);
+}
+
 /* ---- the end of the scene ---------------------------------------------- */
 
 /* `light_units physical` and --transport full ask for all transport; what is
@@ -155,10 +286,14 @@ bool build_finish(struct parser *parser)
 
     if (parser->failed || !build_place_atmosphere(parser))
         return false;
-    build_report_lacks(parser);
     camera = parser->builder->camera;
     if (!camera)
         camera = &model_default_camera;
+    globals_lacks(parser);
+    build_camera_lacks(parser, camera);
+    if (!build_finish_sky(parser, &err))
+        return parser_relay(parser, camera->at, &err);
+    build_report_lacks(parser);
 
     if (finish_globals(parser, &err) && finish_camera(parser, &err))
         return true;

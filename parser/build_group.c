@@ -8,38 +8,45 @@ static const struct param group_params[] = {BUILD_GROUP_ROWS, {0}};
 /* ---- members ----------------------------------------------------------- */
 
 /* Maps that come before a member do not move it. */
-static bool undo(struct parser *parser, const struct object *object,
+static void undo(struct parser *parser, const struct object *object,
                  struct child *child)
 {
     const transform identity = transform_identity();
     transform *before;
 
     if (!memcmp(&object->by, &identity, sizeof identity))
-        return true;
+        return;
     before = parser_alloc(parser, sizeof *before);
     if (!before)
-        return false;
+        return;
     if (!transform_inverse(&object->by, before))
         *before = identity;
     child->before = before;
-    return true;
 }
 
-static void add_member(struct parser *parser, const struct object *object,
-                       struct members *members, const struct value *value)
+struct child *build_add_child(struct parser *parser, struct members *members,
+                              const struct object *object)
 {
     struct child *child = parser_alloc(parser, sizeof *child);
 
     if (!child)
-        return;
-    child->object = value->node;
-    if (!undo(parser, object, child))
-        return;
+        return NULL;
+    child->object = object;
     if (members->last)
         members->last->next = child;
     else
         members->first = child;
     members->last = child;
+    return child;
+}
+
+static void add_member(struct parser *parser, const struct object *object,
+                       struct members *members, const struct value *value)
+{
+    struct child *child = build_add_child(parser, members, value->node);
+
+    if (child)
+        undo(parser, object, child);
 }
 
 static bool is_member(const struct value *value)

@@ -186,7 +186,27 @@ static bool place_light(struct parser *parser, const struct object *object,
     note_lacks(parser, object);
     transform_point(&has->by, light.location, light.location);
     transform_point(&has->by, light.point_at, light.point_at);
+    for (int i = 0; i < 2; i++)
+        transform_vector(&has->by, light.area_axis[i], light.area_axis[i]);
     return brume_add_light(parser->out->scene, &light, err) >= 0;
+}
+
+static bool place_one(struct parser *parser, const struct object *object,
+                      const struct inheritance *from, bool part, size_t *depth,
+                      struct brume_error *err);
+
+/* What a light looks like is about its place, and in nobody's light. */
+static bool place_looks(struct parser *parser, const struct object *object,
+                        const struct inheritance *has, size_t *depth,
+                        struct brume_error *err)
+{
+    transform there = transform_translate(object->light.location);
+    struct inheritance from = {.by = transform_then(&there, &has->by)};
+    const struct child *child = object->members.first;
+
+    if (!child || parser->builder->querying)
+        return true;
+    return place_one(parser, child->object, &from, false, depth, err);
 }
 
 /* ---- composites -------------------------------------------------------- */
@@ -262,7 +282,8 @@ static bool place_one(struct parser *parser, const struct object *object,
 
     inherit(object, from, &has);
     if (object->kind == OBJECT_LIGHT)
-        return place_light(parser, object, &has, err);
+        return place_light(parser, object, &has, err) &&
+               place_looks(parser, object, &has, depth, err);
     if (!group && !object->clips.first)
         return place_leaf(parser, object, &has, part, err);
     struct placing *stack = push(parser->builder, *depth, err);
@@ -398,6 +419,15 @@ void build_place(struct parser *parser, const struct value *value,
         break;
     case VALUE_CAMERA:
         parser->builder->camera = value->node;
+        break;
+    case VALUE_FOG:
+        build_lacks(parser, "fog", at);
+        break;
+    case VALUE_RAINBOW:
+        build_lacks(parser, "rainbows", at);
+        break;
+    case VALUE_SKY_SPHERE:
+        parser->builder->sky = value->node;
         break;
     case VALUE_MEDIA:
         add_atmosphere(parser, value->node, at);

@@ -116,14 +116,3 @@ struct value build_trace(struct parser *parser, const struct value *object,
         set_normal(parser, normal, n, at);
     return value_vector(3, point);
 }
-
-struct value build_spline_value(struct parser *parser,
-                                const struct value *spline, int count,
-                                const struct name *type, struct location at)
-{
-    (void)spline;
-    (void)type;
-    eval_pop(parser, count);
-    parser_mistake(parser, at, "splines are not supported yet");
-    return value_float(0);
-}

@@ -50,9 +50,14 @@
     X(MATERIAL, material) X(INTERIOR, interior) X(MEDIA, media)               \
     X(SCATTERING, scattering) X(DENSITY, density) X(FIRE, fire)               \
     X(TEMPERATURE, temperature) X(AMOUNT, amount)                             \
-    X(TRANSFORM, transform) X(CAMERA, camera) X(LIGHT, light)                 \
-    X(BACKGROUND, background) X(GLOBAL_SETTINGS, global_settings)             \
-    X(TRANSPORT, transport) X(DEFAULT, default)
+    X(TRANSFORM, transform) X(CAMERA, camera) X(MESH_CAMERA, mesh_camera)     \
+    X(BOKEH, bokeh) X(LIGHT, light) X(LOOKS_LIKE, looks_like)                 \
+    X(PROJECTED_THROUGH, projected_through)                                   \
+    X(BACKGROUND, background) X(FOG, fog) X(RAINBOW, rainbow)                 \
+    X(SKY_SPHERE, sky_sphere) X(SPLINE, spline)                               \
+    X(GLOBAL_SETTINGS, global_settings) X(TRANSPORT, transport)               \
+    X(PHOTONS, photons) X(RADIOSITY, radiosity)                               \
+    X(GLOBAL_SUBSURFACE, global_subsurface) X(DEFAULT, default)
 
 enum build_kind {
 #define X(kind, name) BUILD_##kind,
@@ -177,11 +182,36 @@ struct transport {
     bool environment;
 };
 
+/* POV-Ray's ways to find indirect light: kept, and told to be missing. */
+struct photons {
+    double spacing, count, gather[2], media[2], jitter, autostop;
+    double expand_thresholds[2], radius[2], steps;
+    double max_trace_level, adc_bailout;
+};
+
+struct radiosity {
+    double adc_bailout, brightness, count[2], error_bound, gray_threshold;
+    double importance, low_error_factor, max_sample, maximum_reuse;
+    double minimum_reuse, nearest_count[2], pretrace_end, pretrace_start;
+    double recursion_limit;
+    bool always_sample, media, normal, subsurface;
+};
+
+struct subsurface {
+    double samples[2];
+    bool radiosity;
+};
+
 struct globals {
+    struct photons photons;
+    struct radiosity radiosity;
+    struct subsurface subsurface;
+    bool has_photons, has_radiosity;
     double ambient_light[3], background[3];
     double assumed_gamma, adc_bailout, accuracy, time_limit;
     int max_trace_level, light_units, integrator;
-    int number_of_waves, noise_generator;
+    int charset, noise_generator, number_of_waves;
+    double irid_wavelength[3], mm_per_unit;
     struct transport transport;
     unsigned transport_given;
 };
@@ -210,6 +240,7 @@ struct builder {
     struct texture default_texture;
     struct globals globals;
     const struct camera *camera;    /* the last one placed                 */
+    const struct sky_sphere *sky;
     const struct media *atmosphere[BRUME_MAX_INTERIOR_MEDIA];
     int atmospheres;
     struct location atmosphere_at;
@@ -326,6 +357,14 @@ void build_lacks_of(struct parser *parser, const struct object *object,
                     const struct interior *interior);
 /* One warning of all of it. */
 void build_report_lacks(struct parser *parser);
+
+/* Adds an object to a list of them; NULL: no memory. */
+struct child *build_add_child(struct parser *parser, struct members *members,
+                              const struct object *object);
+/* What a camera has that is not drawn. */
+void build_camera_lacks(struct parser *parser, const struct camera *camera);
+/* The end of the scene: its sky. */
+bool build_finish_sky(struct parser *parser, struct brume_error *err);
 
 /* A shape whose kind its frame's tells. */
 void build_shape_open(struct parser *parser, struct frame *frame);

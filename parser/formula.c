@@ -15,6 +15,7 @@ enum formula_kind {
     FORMULA_SELECT,    /* condition and two or three values               */
     FORMULA_SERIES,    /* first, last, term; index: enum brume_block      */
     FORMULA_CALL,      /* of the function of core named by index          */
+    FORMULA_SPLINE,    /* index: of core's spline; number: kind, or -1 */
     FORMULA_PICK       /* index: the component of its operand             */
 };
 
@@ -283,6 +284,19 @@ struct value formula_call(struct parser *parser, const struct value *value,
     return call;
 }
 
+struct value formula_spline(struct parser *parser, int id, int terms, int kind,
+                            const struct value *t, struct location at)
+{
+    struct value value = make(parser, FORMULA_SPLINE, id, t, 1, at);
+
+    if (formula_is(&value)) {
+        struct formula *node = (struct formula *)value.formula;
+        node->number = kind;
+        node->results = value.terms = terms;
+    }
+    return value;
+}
+
 /* ---- writing a formula to core ----------------------------------------- */
 
 /* A node whose operands are being written. */
@@ -305,6 +319,9 @@ static bool write_node(struct brume_function *function,
         return brume_function_op(function, (enum brume_op)node->index, err);
     case FORMULA_CALL:
         return brume_function_call(function, node->index, node->operands, err);
+    case FORMULA_SPLINE:
+        return brume_function_spline(function, node->index, (int)node->number,
+                                     err);
     case FORMULA_PICK:
         return brume_function_pick(function, node->operand[0]->results,
                                    node->index, err);
@@ -404,9 +421,12 @@ void formula_body(struct parser *parser, const struct value *value,
 void formula_internal(struct parser *parser, const struct value *number,
                       struct location at)
 {
+    struct brume_error err = {0};
+
     if (!parser->failed)
-        parser_mistake(parser, at, "internal(%g) is not supported yet",
-                       number->v[0]);
+        made(parser,
+             brume_add_internal(parser->out->scene, (int)number->v[0], &err),
+             at, &err);
 }
 
 void formula_statement(struct parser *parser, struct location at)

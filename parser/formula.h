@@ -69,6 +69,9 @@ struct value formula_component(struct parser *parser, const struct value *a,
 struct value formula_builtin(struct parser *parser, const char *word,
                              const struct value *argument, int count,
                              struct location at);
+/* A spline's point at a formula. */
+struct value formula_spline(struct parser *parser, int id, int terms, int kind,
+                            const struct value *t, struct location at);
 /* A user's function called with the `count` values pushed last: a number
  * where all of them are. */
 struct value formula_call(struct parser *parser, const struct value *function,

@@ -103,7 +103,7 @@ void model_object_transform(struct object *object, const transform *by)
 /* ---- camera ------------------------------------------------------------ */
 
 const struct camera model_default_camera = {
-    .kind = BRUME_CAMERA_PERSPECTIVE,
+    .type = CAMERA_PERSPECTIVE,
     .direction = {0, 0, 1},
     .up = {0, 1, 0},
     .right = {1.33, 0, 0},
@@ -198,7 +198,8 @@ enum camera_fault model_camera(const struct camera *camera,
     enum camera_fault fault = CAMERA_FINE;
 
     memset(out, 0, sizeof *out);
-    out->kind = camera->kind;
+    out->kind = camera->type == CAMERA_ORTHOGRAPHIC ? BRUME_CAMERA_ORTHOGRAPHIC
+                                                    : BRUME_CAMERA_PERSPECTIVE;
     memcpy(out->direction, camera->direction, sizeof out->direction);
     memcpy(out->up, camera->up, sizeof out->up);
     memcpy(out->right, camera->right, sizeof out->right);
@@ -208,7 +209,7 @@ enum camera_fault model_camera(const struct camera *camera,
                    tan(camera->angle * (3.14159265358979323846 / 360)));
     if (camera->has_look_at)
         fault = look_at(camera, out);
-    if (camera->kind == BRUME_CAMERA_ORTHOGRAPHIC &&
+    if (camera->type == CAMERA_ORTHOGRAPHIC &&
         (camera->angle > 0 || !(camera->has_up || camera->has_right)))
         fit_orthographic(camera, out);
     transform_point(&camera->by, camera->location, out->location);

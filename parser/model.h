@@ -141,12 +141,51 @@ struct child {
 /* Applies a map to an object and to what it has by now. */
 void model_object_transform(struct object *object, const transform *by);
 
+/* ---- the air and the sky ----------------------------------------------- */
+
+/* Nothing draws fog and rainbow yet. */
+struct fog {
+    int type;
+    double distance, color[5];
+    double turbulence[3], turb_depth, omega, lambda;
+    int octaves;
+    double offset, alt, up[3];
+};
+
+struct rainbow {
+    double direction[3], angle, width, distance, jitter, up[3];
+    double arc_angle, falloff_angle;
+    const void *map;                /* its color_map                       */
+};
+
+struct sky_sphere {
+    const struct pigment *pigment[8];   /* layers, the lowest first        */
+    int pigments;
+    double emission[3];
+    transform by;
+};
+
 /* ---- camera ------------------------------------------------------------ */
 
+/* The language's, of which core has the first two. */
+enum camera_type {
+    CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC, CAMERA_FISHEYE,
+    CAMERA_ULTRA_WIDE_ANGLE, CAMERA_OMNIMAX, CAMERA_PANORAMIC,
+    CAMERA_SPHERICAL, CAMERA_CYLINDER, CAMERA_MESH
+};
+
 struct camera {
-    enum brume_camera_kind kind;
+    enum camera_type type;
+    int cylinder;                   /* type of a cylinder camera, 1 to 4   */
     double location[3], direction[3], up[3], right[3], sky[3], look_at[3];
-    double angle;                   /* degrees; 0: none                    */
+    double angle, angle_v;          /* degrees; 0: none                    */
+    double focal_point[3], aperture, confidence, variance;
+    int blur_samples[2];
+    bool bokeh, normal;             /* it has these                        */
+    struct members meshes;          /* of a mesh_camera                    */
+    int rays, distribution;         /* of it                               */
+    double max_distance;
+    bool mesh_smooth;
     bool has_look_at, has_up, has_right;
     transform by;
     struct location at;

@@ -51,12 +51,24 @@ static void lights(void **state)
     NUMBERS(s->light[2].point_at, 1, 0, 0);
     NUMBERS(s->light[3].point_at, 2, 0, 0);
     expect_error("light_source { 0, 1 spotlight radius 91 }", BRUME_ERR_SCENE,
-                 1, 38, "'radius' is 91");
+                 1, 1, "'radius' of a spotlight is 91");
     expect_error("light_source { 0 }", BRUME_ERR_SCENE, 1, 18,
                  "'light_source' needs its color");
     expect_error("light_source { 0, 1 pigment { rgb 1 } }", BRUME_ERR_SCENE, 1,
                  21, "pigment");
     expect_warning("light_source { 0, 1 radius 5 }", 1, 1, "without");
+    s = scene("light_source { <1,2,3>, 1 cylinder radius 5 falloff 100\n"
+              "  area_light <1,0,0>, <0,2,0>, 3, 4 circular parallel\n"
+              "  looks_like { sphere { 0, 1 translate x } } translate y }");
+    l = &s->light[0];
+    assert_int_equal(l->kind, BRUME_LIGHT_CYLINDER);
+    assert_true(l->area && l->area_circular && l->parallel);
+    assert_false(l->area_orient);
+    NUMBERS(l->area_axis[1], 0, 2, 0);
+    assert_int_equal(l->area_size[1], 4);
+    assert_false(s->shape[0].shadow);
+    NUMBERS(s->shape[0].transform[0], 1, 0, 0, 2);
+    NUMBERS(s->shape[0].transform[1], 0, 1, 0, 3);
 }
 
 static void backgrounds(void **state)

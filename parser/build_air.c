@@ -1,0 +1,215 @@
+/* build_air.c - what is around a scene: background, fog, rainbow and
+ * sky_sphere. */
+#include <string.h>
+
+#include "parser/builder.h"
+
+/* ---- background -------------------------------------------------------- */
+
+static const struct param background_arguments[] = {
+    PARAM_ANY("color", PARAM_RGB, 0, 0, struct globals, background), {0}};
+
+static void open_background(struct parser *parser, struct frame *frame)
+{
+    frame->node = &parser->builder->globals;
+}
+
+const struct statement build_statement_background = {
+    .word = "background",
+    .arguments = background_arguments,
+    .needed = 1,
+    .open = open_background,
+};
+
+/* ---- fog --------------------------------------------------------------- */
+
+#define FOG(word, kind, start, member)                                         \
+    PARAM_ANY(word, kind, start, 0, struct fog, member)
+
+static const struct param fog_params[] = {
+    PARAM_ROW("fog_type", PARAM_INTEGER, 1, 1, 2, 0, 0, struct fog, type),
+    PARAM_ROW("distance", PARAM_FLOAT, 0, 0, INFINITY, 0, 0, struct fog,
+              distance),
+    FOG("turbulence", PARAM_VECTOR, 0, turbulence),
+    FOG("turb_depth", PARAM_FLOAT, 0.5, turb_depth),
+    FOG("omega", PARAM_FLOAT, 0.5, omega),
+    FOG("lambda", PARAM_FLOAT, 2, lambda),
+    PARAM_ROW("octaves", PARAM_INTEGER, 6, 1, 10, 0, 0, struct fog, octaves),
+    FOG("fog_offset", PARAM_FLOAT, 0, offset),
+    FOG("fog_alt", PARAM_FLOAT, 0, alt),
+    {.word = "up",
+     .kind = PARAM_VECTOR,
+     .start = {0, 1, 0},
+     .low = -INFINITY,
+     .high = INFINITY,
+     .alone = NAN,
+     .offset = offsetof(struct fog, up)},
+    {0}};
+static const struct param fog_arguments[] = {
+    PARAM_ANY("color", PARAM_COLOR, 0, 0, struct fog, color), {0}};
+
+static void open_fog(struct parser *parser, struct frame *frame)
+{
+    (void)parser;
+    param_defaults(fog_params, frame->node);
+}
+
+/* A color may be said again, after a fog that was declared. */
+static void fog_argument(struct parser *parser, struct frame *frame,
+                         const struct value *value, struct location at)
+{
+    param_set(parser, fog_arguments, frame->node, at, value, 1, at);
+}
+
+static void apply_fog(struct parser *parser, struct frame *frame,
+                      const struct value *value, struct location at)
+{
+    (void)parser;
+    (void)at;
+    *(struct fog *)frame->node = *(const struct fog *)value->node;
+}
+
+static void move_fog(struct parser *parser, struct frame *frame,
+                     const transform *by)
+{
+    struct fog *fog = frame->node;
+
+    (void)parser;
+    transform_vector(by, fog->up, fog->up);
+}
+
+const struct statement build_statement_fog = {
+    .word = "fog",
+    .makes = VALUE_FOG,
+    .takes = BUILD_TAKES(VALUE_FOG),
+    .size = sizeof(struct fog),
+    .params = fog_params,
+    .arguments = fog_arguments,
+    .open = open_fog,
+    .argument = fog_argument,
+    .apply = apply_fog,
+    .move = move_fog,
+};
+
+/* ---- rainbow ----------------------------------------------------------- */
+
+#define RAINBOW(word, kind, start)                                             \
+    PARAM_ANY(#word, kind, start, 0, struct rainbow, word)
+
+static const struct param rainbow_params[] = {
+    RAINBOW(direction, PARAM_VECTOR, 0),
+    RAINBOW(angle, PARAM_FLOAT, 0),
+    RAINBOW(width, PARAM_FLOAT, 0),
+    RAINBOW(distance, PARAM_FLOAT, 0),
+    RAINBOW(jitter, PARAM_FLOAT, 0),
+    RAINBOW(up, PARAM_VECTOR, 0),
+    RAINBOW(arc_angle, PARAM_FLOAT, 180),
+    RAINBOW(falloff_angle, PARAM_FLOAT, 180),
+    {0}};
+
+static void open_rainbow(struct parser *parser, struct frame *frame)
+{
+    (void)parser;
+    param_defaults(rainbow_params, frame->node);
+}
+
+static void apply_rainbow(struct parser *parser, struct frame *frame,
+                          const struct value *value, struct location at)
+{
+    struct rainbow *rainbow = frame->node;
+
+    (void)parser;
+    (void)at;
+    if (value->kind == VALUE_RAINBOW)
+        *rainbow = *(const struct rainbow *)value->node;
+    else
+        rainbow->map = value->node;
+}
+
+static void move_rainbow(struct parser *parser, struct frame *frame,
+                         const transform *by)
+{
+    struct rainbow *rainbow = frame->node;
+
+    (void)parser;
+    transform_vector(by, rainbow->direction, rainbow->direction);
+    transform_vector(by, rainbow->up, rainbow->up);
+}
+
+const struct statement build_statement_rainbow = {
+    .word = "rainbow",
+    .makes = VALUE_RAINBOW,
+    .takes = BUILD_TAKES(VALUE_RAINBOW) | BUILD_TAKES(VALUE_COLOR_MAP),
+    .size = sizeof(struct rainbow),
+    .params = rainbow_params,
+    .open = open_rainbow,
+    .apply = apply_rainbow,
+    .move = move_rainbow,
+};
+
+/* ---- sky_sphere -------------------------------------------------------- */
+
+enum { SKY_LAYERS = 8 };
+
+static void open_sky(struct parser *parser, struct frame *frame)
+{
+    struct sky_sphere *sky = frame->node;
+
+    (void)parser;
+    sky->by = transform_identity();
+    for (int i = 0; i < 3; i++)
+        sky->emission[i] = 1;
+}
+
+static void apply_sky(struct parser *parser, struct frame *frame,
+                      const struct value *value, struct location at)
+{
+    struct sky_sphere *sky = frame->node;
+    struct pigment *kept;
+
+    if (value->kind == VALUE_SKY_SPHERE) {
+        *sky = *(const struct sky_sphere *)value->node;
+        return;
+    }
+    if (sky->pigments == SKY_LAYERS) {
+        parser_mistake(parser, at, "a sky_sphere has at most %d pigments",
+                       SKY_LAYERS);
+        return;
+    }
+    kept = parser_alloc(parser, sizeof *kept);
+    if (!kept)
+        return;
+    *kept = *(const struct pigment *)value->node;
+    sky->pigment[sky->pigments++] = kept;
+}
+
+static void move_sky(struct parser *parser, struct frame *frame,
+                     const transform *by)
+{
+    struct sky_sphere *sky = frame->node;
+
+    (void)parser;
+    sky->by = transform_then(&sky->by, by);
+}
+
+static const struct param sky_params[] = {
+    PARAM_ANY("emission", PARAM_RGB, 1, 0, struct sky_sphere, emission), {0}};
+
+const struct statement build_statement_sky_sphere = {
+    .word = "sky_sphere",
+    .makes = VALUE_SKY_SPHERE,
+    .takes = BUILD_TAKES(VALUE_SKY_SPHERE) | BUILD_TAKES(VALUE_PIGMENT),
+    .size = sizeof(struct sky_sphere),
+    .params = sky_params,
+    .open = open_sky,
+    .apply = apply_sky,
+    .move = move_sky,
+};
+
+bool build_finish_sky(struct parser *parser, struct brume_error *err)
+{
+    (void)err;
+    if (parser->builder->sky)
+        build_lacks(parser, "sky_sphere", (struct location){0, UINT32_MAX});
+    return true;
+}
