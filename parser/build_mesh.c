@@ -127,6 +127,9 @@ static void close_triangle(struct parser *parser, struct frame *frame,
                                               : build_around(parser)->node;
     struct brume_error err = {0};
 
+    enum { BYTES = 150 }; /* three vertices and indices, as arrays grow */
+
+    parser_hold(parser, at, BYTES);
     if (!add_triangle(parser->builder, object->mesh->mesh, smooth, &err))
         parser_relay(parser, at, &err);
 }

@@ -39,6 +39,9 @@ static bool announced(struct parser *parser, struct frame *frame,
                         (long long)builder->announced);
 }
 
+/* Bytes of a vector or a face; arrays grow by doubling. */
+enum { ITEM = 12 };
+
 static void list_vector(struct parser *parser, struct frame *frame,
                         const struct value *number, struct location at)
 {
@@ -48,7 +51,8 @@ static void list_vector(struct parser *parser, struct frame *frame,
     struct brume_error err = {0};
     bool fine;
 
-    if (!announced(parser, frame, number, at))
+    if (!announced(parser, frame, number, at) ||
+        !parser_hold(parser, at, 2 * ITEM))
         return;
     if (frame->kind == BUILD_VERTEX_VECTORS) {
         fine = mesh_add_vertex(mesh, v.v, &err);
@@ -84,7 +88,8 @@ static void list_index(struct parser *parser, struct frame *frame,
                      "supported yet");
         return;
     }
-    if (!announced(parser, frame, number, at))
+    if (!announced(parser, frame, number, at) ||
+        !parser_hold(parser, at, 2 * ITEM))
         return;
     item = memory_grow(list->item, &list->room, list->count + 1, sizeof *item,
                        &err);

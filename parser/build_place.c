@@ -173,7 +173,8 @@ static bool place_leaf(struct parser *parser, const struct object *object,
     memcpy(shape.transform, has->by.m, sizeof shape.transform);
     shape.part = part;
     int id = send_shape(parser, object, has, &shape, err);
-    return id >= 0 && (!part || keep_part(parser, id, err));
+    return id >= 0 && parser_hold(parser, object->at, 2 * sizeof shape) &&
+           (!part || keep_part(parser, id, err));
 }
 
 static bool place_light(struct parser *parser, const struct object *object,
@@ -188,7 +189,8 @@ static bool place_light(struct parser *parser, const struct object *object,
     transform_point(&has->by, light.point_at, light.point_at);
     for (int i = 0; i < 2; i++)
         transform_vector(&has->by, light.area_axis[i], light.area_axis[i]);
-    return brume_add_light(parser->out->scene, &light, err) >= 0;
+    return brume_add_light(parser->out->scene, &light, err) >= 0 &&
+           parser_hold(parser, object->at, 2 * sizeof light);
 }
 
 static bool place_one(struct parser *parser, const struct object *object,

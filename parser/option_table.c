@@ -2,7 +2,12 @@
 
 #define AT(member) ((long)offsetof(struct options, member))
 
-enum { MAX_SIDE = 1 << 24, MAX_FRAME = 1 << 30, MAX_THREADS = 4096 };
+enum {
+    MAX_SIDE = 1 << 24,
+    MAX_FRAME = 1 << 30,
+    MAX_THREADS = 4096,
+    MAX_DEPTH = 1 << 20
+};
 
 static const struct option_word backend_words[] = {
     {"auto", BRUME_BACKEND_AUTO, false},
@@ -116,6 +121,19 @@ const struct option option_table[] = {
       .help = "scenes may include and read from DIR too" },
     { .name = "allow-write", .value = "dir", .set = set_folder,
       .at = AT(allow_write), .help = "scenes may write to DIR too" },
+    { .name = "include-depth", .value = "n", .set = set_integer,
+      .at = AT(include_depth), .low = 1, .high = MAX_DEPTH,
+      .help = "files within files; 64" },
+    { .name = "macro-depth", .value = "n", .set = set_integer,
+      .at = AT(macro_depth), .low = 1, .high = MAX_DEPTH,
+      .help = "macros within macros; 65536" },
+    { .name = "iterations", .value = "n", .set = set_unsigned,
+      .at = AT(iterations), .help = "of a scene's loops; 10^9" },
+    { .name = "tokens", .value = "n", .set = set_unsigned, .at = AT(tokens),
+      .help = "of a scene, loops unrolled; 10^10" },
+    { .name = "parse-time", .value = "seconds", .set = set_number,
+      .at = AT(parse_seconds), .low = 1e-3, .high = 1e9,
+      .help = "for reading a scene; none" },
 
     HEADING("Picture"),
     { .plus = "W", .ini = "Width", .value = "n", .set = set_integer,

@@ -81,6 +81,10 @@ struct options {
     double error, seconds;
     int threads;
     uint64_t seed, memory;
+    /* Of reading a scene; 0: the default of struct parse_limits. */
+    int include_depth, macro_depth;
+    uint64_t iterations, tokens;
+    double parse_seconds;
     const char *stats;              /* file of --stats, or NULL            */
 
     bool has_verbose, verbose;      /* +V                                  */

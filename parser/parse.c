@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 static const double VERSION_DEFAULT = 3.7;
 
@@ -127,6 +128,17 @@ static bool predeclare_given(struct parser *parser)
 
 /* ---- the scene --------------------------------------------------------- */
 
+/* Half of what the machine has, so that a scene that wants ever more ends with
+ * a diagnostic and not by the system's hand; never more than 4 GiB. */
+static size_t default_memory(void)
+{
+    const size_t most = (size_t)4 << 30;
+    long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    size_t half = pages > 0 && size > 0 ? (size_t)pages / 2 * (size_t)size
+                                        : most;
+    return half < most ? half : most;
+}
+
 static struct parse_limits limits_of(const struct parse_input *in)
 {
     struct parse_limits limits = in->limits;
@@ -134,7 +146,7 @@ static struct parse_limits limits_of(const struct parse_input *in)
     limits.macro_depth = limits.macro_depth ? limits.macro_depth : 65536;
     limits.iterations = limits.iterations ? limits.iterations : 1000000000;
     limits.tokens = limits.tokens ? limits.tokens : 10000000000;
-    limits.memory = limits.memory ? limits.memory : (size_t)4 << 30;
+    limits.memory = limits.memory ? limits.memory : default_memory();
     return limits;
 }
 

@@ -38,7 +38,8 @@ struct parse_limits {
     int macro_depth;            /* calls within calls; 65536               */
     uint64_t iterations;        /* of all loops together; 10^9             */
     uint64_t tokens;            /* after expansion; 10^10                  */
-    size_t memory;              /* bytes held by the front end; 4 GiB      */
+    size_t memory;              /* bytes held by the front end; 4 GiB, or half
+                                   of what the machine has if that is less */
     double seconds;             /* wall time; none                         */
 };
 

@@ -31,6 +31,7 @@ struct parser {
     struct source **source;         /* texts, by location.source           */
     size_t sources, source_room;
     size_t source_bytes;            /* held by texts and their tokens      */
+    size_t scene_bytes;             /* about those of core's scene         */
     struct reader *readers;         /* all of them                         */
     struct chunk *chunks;           /* all of them                         */
     struct stream *streams;         /* that the scene opened               */
@@ -74,6 +75,10 @@ bool parser_relay(struct parser *parser, struct location at,
 /* From the parse arena, zeroed. NULL: the limit was reported. */
 void *parser_alloc(struct parser *parser, size_t size);
 void *parser_array(struct parser *parser, size_t count, size_t size);
+
+/* Counts about so many bytes that core or lib hold for the scene. False: the
+ * limit was reported. */
+bool parser_hold(struct parser *parser, struct location at, size_t bytes);
 
 /* Where a file of that name is, by the folder of the text that names it, the
  * scene's folder and the library path; the path lies in the arena. NULL: not

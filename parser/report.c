@@ -174,6 +174,17 @@ bool report_no_memory(struct parser *parser)
                              "out of memory");
 }
 
+bool parser_hold(struct parser *parser, struct location at, size_t bytes)
+{
+    size_t most = parser->limits.memory;
+    parser->scene_bytes += bytes;
+    return !most || parser->scene_bytes <= most ||
+           parser_fail(parser, BRUME_ERR_LIMIT, at, NULL,
+                       "the scene needs more than the %zu bytes of memory that "
+                       "it may use",
+                       most);
+}
+
 void report_exhausted(struct parser *parser, struct location at, int depth)
 {
     /* There may be some more symbols on the stack than tokens. */
