@@ -4,7 +4,7 @@
  *
  * prints relMSE, CPU seconds and their product, the work-normalised variance,
  * from so many independent frames, and the picture's mean; with a folder it
- * leaves the density grid there, as mitsuba.py wants it (raw floats, x runs
+ * leaves the density grid there, as peers.py wants it (raw floats, x runs
  * fastest), and the mean picture. SCENE is cloud, smoke or fog. */
 #include <math.h>
 #include <stdio.h>

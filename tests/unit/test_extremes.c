@@ -3,6 +3,7 @@
  * its module: phase functions, frames, black bodies, triangles. */
 #include "tests/unit/truth.h"
 #include "core/physics/path.h"
+#include "core/prepare.h"
 
 static struct brume_globals furnace_of(double sky)
 {
@@ -189,6 +190,35 @@ static void extremes__denser_than_places(void **state)
         struct estimate e = truth_render(s, 4, 2);
         check_white(&e);
     }
+}
+
+/* A path that rounding put beyond the boundary of what it is in is out of it:
+ * else black fills all space before the sky. */
+static void extremes__lost_beyond_a_boundary(void **state)
+{
+    (void)state;
+    struct brume_globals globals = furnace_of(1.0);
+    brume_scene *s = truth_scene(&globals, 1.0, 1e-9);
+    struct brume_medium m = truth_medium(10.0, 0.0, 0.0);
+    truth_fill(s, truth_box(1.0, 0.0, 1.0), &m);
+    struct prepare job = {.scene = s, .threads = 1};
+    struct flat *f = prepare_scene(&job, truth_error());
+    assert_non_null(f);
+    const container_set inside = {1, 0, {0}};
+    const vec3 out = vec3_make(0, 0, -1), o = vec3_make(0, 0, -1e-6f);
+    track_counters count = {0, 0, 0, 0, 0, 0, 0};
+    path_state p;
+    path_begin(&p, o, out, &inside, false, rng_make(1, 0, 0, 0));
+    while (path_segment(&f->view, &p, &count))
+        continue;
+    assert_true(p.radiance.r == 1.0f);
+    container_set set = inside;
+    rng r = rng_make(1, 0, 0, 1);
+    rgb left = shadow_transmittance(&f->view, &set, true, o, out, f->view.far,
+                                    &r, &count);
+    assert_true(left.r == 1.0f);
+    flat_free(f);
+    brume_scene_free(s);
 }
 
 /* Roulette divides by its chance, which must not be tiny. */
@@ -419,7 +449,7 @@ static void extremes__lamp_on_the_ray(void **state)
     for (int i = 0; i < 4; i++) {
         struct brume_globals globals = plain_before(0.0);
         globals.physical_units = true;
-        brume_scene *s = truth_scene(&globals, 1.0, 1e-12);
+        brume_scene *s = truth_scene(&globals, 1.0, 0.0);
         struct brume_medium m = truth_medium(0.0, 1e-6, 0.0);
         struct brume_light l = BRUME_LIGHT_INIT;
         l.location[0] = off[i];
@@ -502,6 +532,7 @@ int main(void)
         cmocka_unit_test(extremes__furnace_of_any_peak),
         cmocka_unit_test(extremes__peaks_and_a_sun),
         cmocka_unit_test(extremes__denser_than_places),
+        cmocka_unit_test(extremes__lost_beyond_a_boundary),
         cmocka_unit_test(extremes__roulette),
         cmocka_unit_test(extremes__choices_stay_below_one),
         cmocka_unit_test(extremes__long_paths_keep_directions),
