@@ -450,7 +450,8 @@ static void extremes__lamp_on_the_ray(void **state)
         struct brume_globals globals = plain_before(0.0);
         globals.physical_units = true;
         brume_scene *s = truth_scene(&globals, 1.0, 0.0);
-        struct brume_medium m = truth_medium(0.0, 1e-6, 0.0);
+        struct brume_medium m = truth_medium(0.0, off[i] > 0.0 ? 1e-6 : 0.5,
+                                             0.0);
         struct brume_light l = BRUME_LIGHT_INIT;
         l.location[0] = off[i];
         l.location[2] = 1.0;
