@@ -33,6 +33,16 @@ static struct loop *innermost(const struct expander *expander)
     return &expander->loop[expander->loops - 1];
 }
 
+/* The state of a #for or #switch; NULL: its head was wrong, and where every
+ * error is wanted the rest of it is read nevertheless (recover.c). */
+static struct loop *state_of(const struct expander *expander, uint32_t opener)
+{
+    return expander->loops > expand_frame(expander)->loops &&
+                   innermost(expander)->opener == opener
+               ? innermost(expander)
+               : NULL;
+}
+
 static bool open_loop(struct expander *expander, const struct loop *loop)
 {
     struct loop *grown = expand_grow(expander, expander->loop,
@@ -49,11 +59,10 @@ static bool open_loop(struct expander *expander, const struct loop *loop)
 /* Goes on behind the block's #end. */
 static void leave(struct expander *expander, uint32_t opener)
 {
-    const struct token *token = token_at(expander, opener);
-    if (token->kind == TOK_HASH_FOR || token->kind == TOK_HASH_SWITCH) {
+    if (state_of(expander, opener)) {
         expander->loops--;
     }
-    jump(expander, token->block.pair + 1);
+    jump(expander, token_at(expander, opener)->block.pair + 1);
 }
 
 static bool count_iteration(struct expander *expander, uint32_t opener)
@@ -324,6 +333,17 @@ bool branch_finish(struct expander *expander, const struct pending *pending)
 
 /* ---- directives in the order they are met ------------------------------ */
 
+/* A clause behind one that was run. */
+static bool run_clause(struct expander *expander, const struct token *token,
+                       uint32_t index)
+{
+    if (state_of(expander, token->block.pair)) {
+        return begin_clause(expander, index);
+    }
+    leave(expander, token->block.pair);
+    return true;
+}
+
 /* The end of a branch that was taken. */
 static bool run_else(struct expander *expander, const struct token *token)
 {
@@ -334,6 +354,18 @@ static bool run_else(struct expander *expander, const struct token *token)
     return true;
 }
 
+/* The end of a macro's body; of one whose head was wrong, the scene goes on
+ * behind it. */
+static void leave_macro(struct expander *expander, uint32_t opener)
+{
+    const struct macro *macro = expand_frame(expander)->macro;
+    if (macro && macro->define == opener) {
+        expand_leave(expander);
+    } else {
+        leave(expander, opener);
+    }
+}
+
 static bool run_end(struct expander *expander, const struct token *token)
 {
     uint32_t opener = token->block.pair;
@@ -342,21 +374,25 @@ static bool run_end(struct expander *expander, const struct token *token)
         jump(expander, opener);
         return true;
     case TOK_HASH_FOR:
-        return next_for(expander);
+        if (state_of(expander, opener)) {
+            return next_for(expander);
+        }
+        break;
     case TOK_HASH_MACRO:
-        expand_leave(expander);
+        leave_macro(expander, opener);
         return true;
     default:
-        leave(expander, opener);
-        return true;
+        break;
     }
+    leave(expander, opener);
+    return true;
 }
 
 static bool run_break(struct expander *expander, const struct token *token)
 {
     uint32_t opener = token->block.pair;
     if (token_at(expander, opener)->kind == TOK_HASH_MACRO) {
-        expand_leave(expander);
+        leave_macro(expander, opener);
     } else {
         leave(expander, opener);
     }
@@ -406,7 +442,7 @@ bool branch_run(struct expander *expander, const struct token *token)
         return run_else(expander, token);
     case TOK_HASH_CASE:
     case TOK_HASH_RANGE:
-        return begin_clause(expander, index);
+        return run_clause(expander, token, index);
     case TOK_HASH_BREAK:
         return run_break(expander, token);
     case TOK_HASH_END:

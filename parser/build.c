@@ -574,18 +574,18 @@ static bool row_takes(const struct frame *frame, const struct value *value)
             row == &lost_row);
 }
 
-static void set_argument(struct parser *parser, struct frame *frame,
+/* Whether there was room for one more. */
+static bool set_argument(struct parser *parser, struct frame *frame,
                          const struct value *number, struct location at)
 {
     const struct statement *statement = build_statement_of(frame);
     const struct param *row = statement->arguments + frame->arguments;
 
-    if (!row->word) {
-        parser_mistake(parser, at, "'%s' takes no more numbers here",
-                       statement->word);
-        return;
-    }
+    if (!row->word)
+        return parser_mistake(parser, at, "'%s' takes no more numbers here",
+                              statement->word);
     param_set(parser, row, frame->node, at, number, 1, at);
+    return true;
 }
 
 void build_argument(struct parser *parser, const struct value *value,
@@ -609,9 +609,9 @@ void build_argument(struct parser *parser, const struct value *value,
     const struct statement *statement = build_statement_of(frame);
     if (statement->argument)
         statement->argument(parser, frame, value, at);
-    else if (statement->arguments)
-        set_argument(parser, frame, value, at);
-    else
+    else if (statement->arguments && !set_argument(parser, frame, value, at))
+        return;
+    else if (!statement->arguments)
         build_misplaced(parser, frame, value, at);
     frame->arguments++;
 }
