@@ -9,7 +9,6 @@
 
 /* Larger pictures come from broken headers. */
 enum { MAX_SIDE = 1 << 20 };
-#define MAX_PIXELS ((size_t)1 << 28)
 
 /* What libpng's callbacks see; they leave by longjmp, so whatever must be
  * freed lives here or with the caller of setjmp. */
@@ -107,26 +106,46 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t size)
                   ferror(stream) ? strerror(errno) : "the file ends too early");
 }
 
+/* What the header says of a picture. */
+struct header {
+    png_uint_32 width, height;
+    int channels, bits, intent;
+};
+
 static bool read_info(png_structp png, png_infop info, FILE *stream,
-                      struct png_picture *picture)
+                      struct header *header)
 {
     if (setjmp(png_jmpbuf(png)))
         return false;
     png_set_user_limits(png, MAX_SIDE, MAX_SIDE);
     png_set_read_fn(png, stream, read_bytes);
     png_read_info(png, info);
-    png_set_expand(png);
+    if (png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE)
+        png_set_packing(png);
+    else
+        png_set_expand(png);
     png_set_interlace_handling(png);
-    if (!png_get_sRGB(png, info, &picture->intent))
-        picture->intent = -1;
+    if (!png_get_sRGB(png, info, &header->intent))
+        header->intent = -1;
     png_read_update_info(png, info);
-    picture->width = (int)png_get_image_width(png, info);
-    picture->height = (int)png_get_image_height(png, info);
-    picture->channels = png_get_channels(png, info);
-    picture->bits = png_get_bit_depth(png, info);
-    if ((size_t)picture->width * (size_t)picture->height > MAX_PIXELS)
-        png_error(png, "has more than 2^28 pixels");
+    header->width = png_get_image_width(png, info);
+    header->height = png_get_image_height(png, info);
+    header->channels = png_get_channels(png, info);
+    header->bits = png_get_bit_depth(png, info);
     return true;
+}
+
+static void take_palette(png_structp png, png_infop info, struct raster *raster)
+{
+    png_colorp color;
+    if (png_get_color_type(png, info) != PNG_COLOR_TYPE_PALETTE ||
+        !png_get_PLTE(png, info, &color, &raster->colors))
+        return;
+    for (int i = 0; i < raster->colors; i++) {
+        raster->palette[i][0] = color[i].red;
+        raster->palette[i][1] = color[i].green;
+        raster->palette[i][2] = color[i].blue;
+    }
 }
 
 static bool read_rows(png_structp png, png_bytepp rows)
@@ -139,52 +158,67 @@ static bool read_rows(png_structp png, png_bytepp rows)
 }
 
 /* Rows of bytes to rows of codes. */
-static void widen(struct png_picture *picture, const unsigned char *bytes)
+static void widen(struct raster *raster, const unsigned char *bytes)
 {
-    size_t samples = (size_t)picture->width * (size_t)picture->height *
-                     (size_t)picture->channels;
+    size_t samples = (size_t)raster->width * (size_t)raster->height *
+                     (size_t)raster->channels;
     for (size_t i = 0; i < samples; i++)
-        picture->sample[i] = picture->bits == 16
-                                 ? (uint16_t)(bytes[2 * i] << 8 |
-                                              bytes[2 * i + 1])
-                                 : bytes[i];
+        raster->sample[i] = raster->max > 255 ? (uint16_t)(bytes[2 * i] << 8 |
+                                                           bytes[2 * i + 1])
+                                              : bytes[i];
 }
 
-static bool read_picture(png_structp png, png_infop info,
-                         struct png_picture *picture, struct brume_error *err)
+static bool read_picture(png_structp png, png_infop info, struct raster *raster,
+                         struct brume_error *err)
 {
-    size_t height = (size_t)picture->height;
+    size_t height = (size_t)raster->height;
     size_t row = png_get_rowbytes(png, info);
     unsigned char *bytes = memory_new(height, row, err);
     png_bytepp rows = memory_new(height, sizeof *rows, err);
-    picture->sample = memory_new(
-        (size_t)picture->width * height,
-        (size_t)picture->channels * sizeof *picture->sample, err);
-    bool ok = bytes && rows && picture->sample;
+    bool ok = bytes && rows;
     for (size_t y = 0; ok && y < height; y++)
         rows[y] = bytes + y * row;
     ok = ok && read_rows(png, rows);
     if (ok)
-        widen(picture, bytes);
+        widen(raster, bytes);
     free(rows);
     free(bytes);
     return ok;
 }
 
-static bool load(FILE *stream, struct session *s, struct png_picture *picture)
+static struct raster *read_raster(png_structp png, png_infop info,
+                                  const struct header *header,
+                                  const struct session *s)
 {
+    struct raster *raster = raster_new(
+        header->width, header->height, header->channels,
+        header->bits == 16 ? UINT16_MAX : 255, s->name, s->err);
+    if (!raster)
+        return NULL;
+    raster->intent = header->intent;
+    take_palette(png, info, raster);
+    if (read_picture(png, info, raster, s->err))
+        return raster;
+    raster_free(raster);
+    return NULL;
+}
+
+static struct raster *load(FILE *stream, struct session *s)
+{
+    struct raster *raster = NULL;
+    struct header header;
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, s, on_error,
                                              on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    bool ok = info
-                  ? read_info(png, info, stream, picture) &&
-                        read_picture(png, info, picture, s->err)
-                  : brume_fail(s->err, BRUME_ERR_MEMORY, "no memory for a PNG");
+    if (!info)
+        brume_fail(s->err, BRUME_ERR_MEMORY, "no memory for a PNG");
+    else if (read_info(png, info, stream, &header))
+        raster = read_raster(png, info, &header, s);
     png_destroy_read_struct(&png, &info, NULL);
-    return ok;
+    return raster;
 }
 
-struct png_picture *png_load(const char *path, struct brume_error *err)
+struct raster *png_load(const char *path, struct brume_error *err)
 {
     struct session s = {path, err};
     FILE *stream = fopen(path, "rb");
@@ -192,19 +226,7 @@ struct png_picture *png_load(const char *path, struct brume_error *err)
         brume_fail_file(err, path, "%s", strerror(errno));
         return NULL;
     }
-    struct png_picture *picture = memory_new(1, sizeof *picture, err);
-    bool ok = picture && load(stream, &s, picture);
+    struct raster *raster = load(stream, &s);
     fclose(stream);
-    if (ok)
-        return picture;
-    png_free_picture(picture);
-    return NULL;
-}
-
-void png_free_picture(struct png_picture *picture)
-{
-    if (!picture)
-        return;
-    free(picture->sample);
-    free(picture);
+    return raster;
 }

@@ -10,10 +10,10 @@
  * Compositing such pixels takes an EXR. */
 #ifndef LIB_PNG_H
 #define LIB_PNG_H
-#include <stdint.h>
 #include <stdio.h>
 #include "lib/error.h"
 #include "lib/image.h"
+#include "lib/raster.h"
 
 /* Writes channels R, G, B and, where `alpha`, A. `bits` is 8 or 16. Errors
  * are BRUME_ERR_FILE and name the file; it appears only when complete. */
@@ -25,15 +25,6 @@ bool png_save_stream(FILE *stream, const char *name,
                      const struct image *image, int bits, bool alpha,
                      struct brume_error *err);
 
-struct png_picture {
-    int width, height;
-    int channels;           /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA    */
-    int bits;               /* of the samples here: 8 or 16               */
-    int intent;             /* of the sRGB chunk, -1 where there is none  */
-    uint16_t *sample;       /* interleaved code values, rows from the top */
-};
-
-/* Reads any PNG; palettes and fewer bits become 8-bit samples. */
-struct png_picture *png_load(const char *path, struct brume_error *err);
-void png_free_picture(struct png_picture *picture);
+/* Reads any PNG; grey of fewer bits becomes 8-bit samples. */
+struct raster *png_load(const char *path, struct brume_error *err);
 #endif

@@ -29,6 +29,11 @@ double srgb_encode(double linear)
     return 1.055 * (square * square * root) - 0.055;
 }
 
+double srgb_decode(double code)
+{
+    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+}
+
 unsigned srgb_code(float linear, unsigned max)
 {
     return (unsigned)(srgb_encode(linear) * max + 0.5);

@@ -1,4 +1,4 @@
-/* srgb.h - linear light to the code values of sRGB (IEC 61966-2-1:1999). */
+/* srgb.h - linear light and the code values of sRGB (IEC 61966-2-1:1999). */
 #ifndef LIB_SRGB_H
 #define LIB_SRGB_H
 
@@ -6,6 +6,9 @@
  * The result is the same on every processor: it uses no library function but
  * sqrt, which IEEE 754 defines to the last bit. */
 double srgb_encode(double linear);
+
+/* The curve's inverse; where 0..1 is left it goes on. */
+double srgb_decode(double code);
 
 /* srgb_encode as the nearest of the codes 0..max (255 or 65535). */
 unsigned srgb_code(float linear, unsigned max);

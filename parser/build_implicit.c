@@ -1,5 +1,4 @@
-/* build_implicit.c - shapes of functions: isosurface, parametric and
- * height_field. */
+/* build_implicit.c - shapes of functions: isosurface and parametric. */
 #include <string.h>
 
 #include "parser/builder.h"
@@ -64,8 +63,8 @@ static void open_isosurface(struct parser *parser, struct frame *frame)
     shape->order = 1;
 }
 
-static bool is_function_of_space(struct parser *parser,
-                                 const struct value *value, struct location at)
+bool build_is_function_of_space(struct parser *parser,
+                                const struct value *value, struct location at)
 {
     const struct function *function = value->node;
 
@@ -82,7 +81,7 @@ static void apply_isosurface(struct parser *parser, struct frame *frame,
 
     if (value->kind != VALUE_FUNCTION)
         build_object_apply(parser, frame, value, at);
-    else if (is_function_of_space(parser, value, at))
+    else if (build_is_function_of_space(parser, value, at))
         object->shape.function[0] = ((const struct function *)value->node)->id;
 }
 
@@ -167,7 +166,7 @@ static void apply_parametric(struct parser *parser, struct frame *frame,
         i++;
     if (i == 3)
         parser_mistake(parser, at, "a parametric has three functions");
-    else if (is_function_of_space(parser, value, at))
+    else if (build_is_function_of_space(parser, value, at))
         shape->function[i] = ((const struct function *)value->node)->id;
 }
 
@@ -234,86 +233,5 @@ const struct statement build_statement_parametric = {
     .apply = apply_parametric,
     .move = build_object_move,
     .close = close_parametric,
-    .set = build_object_set,
-};
-
-/* ---- height_field ------------------------------------------------------ */
-
-/* Heights of a function: at the middle of each column and row, the first row
- * at the top, as POV-Ray makes a picture of it. */
-static void function_heights(struct parser *parser, struct frame *frame,
-                             const struct value *value, struct location at)
-{
-    const struct function *function = value->node;
-    struct brume_shape *shape = &((struct object *)frame->node)->shape;
-    struct brume_error err = {0};
-    double out[BRUME_MAX_RESULTS];
-
-    if (function->columns == 0) {
-        parser_mistake(parser, at,
-                       "a height field needs `function columns, rows { ... }`");
-        return;
-    }
-    shape->steps[0] = function->columns;
-    shape->steps[1] = function->rows;
-    parser->builder->numbers = frame->mark;
-    for (int row = 0; row < function->rows; row++)
-        for (int column = 0; column < function->columns; column++) {
-            const double p[3] = {column / (double)function->columns,
-                                 row / (double)function->rows, 0};
-            if (!brume_eval_function(parser->out->scene, function->id, p,
-                                     function->parameters, out, &err)) {
-                parser_relay(parser, at, &err);
-                return;
-            }
-            double height = out[0] > 0 ? (out[0] < 1 ? out[0] : 1) : 0;
-            if (!build_number(parser, height, at))
-                return;
-        }
-}
-
-static void apply_height_field(struct parser *parser, struct frame *frame,
-                               const struct value *value, struct location at)
-{
-    if (value->kind != VALUE_FUNCTION)
-        build_object_apply(parser, frame, value, at);
-    else if (is_function_of_space(parser, value, at))
-        function_heights(parser, frame, value, at);
-}
-
-static void close_height_field(struct parser *parser, struct frame *frame,
-                               struct location at)
-{
-    const struct object *object = frame->node;
-
-    if (object->shape.steps[0] == 0)
-        parser_mistake(parser, at,
-                       "a height field needs a picture or a function");
-    build_take_numbers(parser, frame, frame->node);
-}
-
-static const struct param height_field_params[] = {
-    BUILD_OBJECT_ROWS,
-    PARAM_WORD("smooth", PARAM_SWITCH, 1, 0, struct object, shape.smooth),
-    PARAM_ROW("water_level", PARAM_FLOAT, 0, -INFINITY, INFINITY, 0, 0,
-              struct object, shape.radius),
-    {0}};
-
-static void open_height_field(struct parser *parser, struct frame *frame)
-{
-    build_shape_open(parser, frame);
-    ((struct object *)frame->node)->shape.radius = 0;
-}
-
-const struct statement build_statement_height_field = {
-    .word = "height_field",
-    .makes = VALUE_OBJECT,
-    .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_FUNCTION),
-    .size = sizeof(struct object),
-    .params = height_field_params,
-    .open = open_height_field,
-    .apply = apply_height_field,
-    .move = build_object_move,
-    .close = close_height_field,
     .set = build_object_set,
 };

@@ -79,6 +79,8 @@ struct frame {
     double position;            /* of an entry in its map                  */
     const struct param *open;   /* a word that another one belongs to      */
     size_t mark;                /* the first of its own builder.number     */
+    void *more;                 /* what is known beside the node, until the
+                                   statement is closed                     */
 };
 
 /* Rows that several statements share, and where what they set lies: in the
@@ -368,6 +370,10 @@ bool build_finish_sky(struct parser *parser, struct brume_error *err);
 
 /* A shape whose kind its frame's tells. */
 void build_shape_open(struct parser *parser, struct frame *frame);
+/* Whether a function is of x, y and z and gives a float; else reported. */
+bool build_is_function_of_space(struct parser *parser,
+                                const struct value *value,
+                                struct location at);
 
 /* The object as a shape of core that is seen nowhere, for queries; -1:
  * reported. */

@@ -1,4 +1,5 @@
 #include "parser/eval.h"
+#include "lib/srgb.h"
 #include "parser/build.h"
 #include "parser/builtin.h"
 #include "parser/expander.h"
@@ -245,12 +246,6 @@ void eval_data(struct parser *parser, struct data_run run, struct location at)
 
 /* ---- colors ------------------------------------------------------------ */
 
-/* IEC 61966-2-1: the linear value of an sRGB channel. */
-static double linear(double x)
-{
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
-}
-
 struct color eval_color_rgb(struct parser *parser, const struct name *word,
                             const struct value *value, struct location at)
 {
@@ -268,7 +263,7 @@ struct color eval_color_rgb(struct parser *parser, const struct name *word,
     struct value v = value_promote(*value,
                                    value->terms > terms ? value->terms : terms);
     for (int i = 0; i < 3; i++) {
-        color.v[i] = srgb ? linear(v.v[i]) : v.v[i];
+        color.v[i] = srgb ? srgb_decode(v.v[i]) : v.v[i];
     }
     for (int i = 3; i < v.terms; i++) {
         int term = i == 3 && strcmp(rest, "t") == 0 ? 4 : i;

@@ -78,16 +78,16 @@ static void test_srgb__follows_the_standard(void **state)
     assert_int_equal(srgb_linear_code(0.5f, 255), 128);
 }
 
-static struct png_picture *save_and_load(const struct image *image, int bits,
+static struct raster *save_and_load(const struct image *image, int bits,
                                          bool alpha)
 {
     struct brume_error err = {0};
     if (!png_save(path, image, bits, alpha, &err))
         fail_msg("%s", err.text);
-    struct png_picture *p = png_load(path, &err);
+    struct raster *p = png_load(path, &err);
     if (!p)
         fail_msg("%s", err.text);
-    assert_int_equal(p->bits, bits);
+    assert_int_equal(p->max, bits == 8 ? 255 : 65535);
     assert_int_equal(p->channels, alpha ? 4 : 3);
     assert_int_equal(p->intent, 1);
     return p;
@@ -98,21 +98,21 @@ static void test_png__colours_take_the_curve(void **state)
     (void)state;
     for (int bits = 8; bits <= 16; bits += 8) {
         unsigned max = bits == 8 ? 255 : 65535;
-        struct png_picture *p = save_and_load(&whole, bits, false);
+        struct raster *p = save_and_load(&whole, bits, false);
         assert_int_equal(p->width, WIDTH);
         assert_int_equal(p->height, HEIGHT);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             for (int c = 0; c < 3; c++)
                 assert_int_equal(p->sample[3 * i + c],
                                  srgb_code((&rgba[0][0][0])[4 * i + c], max));
-        png_free_picture(p);
+        raster_free(p);
     }
 }
 
 static void test_png__alpha_is_unassociated(void **state)
 {
     (void)state;
-    struct png_picture *p = save_and_load(&whole, 16, true);
+    struct raster *p = save_and_load(&whole, 16, true);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 3; x < WIDTH; x++) {
             const uint16_t *s = p->sample + 4 * (y * WIDTH + x);
@@ -123,7 +123,7 @@ static void test_png__alpha_is_unassociated(void **state)
             assert_int_equal(s[2], y ? 65535 : 0);
             assert_int_equal(s[3], srgb_linear_code(rgba[y][x][3], 65535));
         }
-    png_free_picture(p);
+    raster_free(p);
 }
 
 static void test_png__region_keeps_the_full_size(void **state)
@@ -136,7 +136,7 @@ static void test_png__region_keeps_the_full_size(void **state)
     image.x1 = 3 + WIDTH;
     image.y0 = 11;
     image.y1 = 11 + HEIGHT;
-    struct png_picture *p = save_and_load(&image, 8, false);
+    struct raster *p = save_and_load(&image, 8, false);
     assert_int_equal(p->width, 30);
     assert_int_equal(p->height, 20);
     assert_int_equal(p->sample[3 * (17 * 30 + 2) + 2], 0);
@@ -144,7 +144,7 @@ static void test_png__region_keeps_the_full_size(void **state)
     assert_int_equal(p->sample[3 * (17 * 30 + 21) + 2], 255);
     assert_int_equal(p->sample[3 * (17 * 30 + 22) + 2], 0);
     assert_int_equal(p->sample[3 * (18 * 30 + 3) + 2], 0);
-    png_free_picture(p);
+    raster_free(p);
 }
 
 static unsigned char bytes[1 << 16], broken[1 << 16];
@@ -165,8 +165,8 @@ static bool load_bytes(const unsigned char *from, size_t size)
     assert_int_equal(fwrite(from, 1, size, f), size);
     fclose(f);
     struct brume_error err = {0};
-    struct png_picture *p = png_load(path, &err);
-    png_free_picture(p);
+    struct raster *p = png_load(path, &err);
+    raster_free(p);
     assert_true(p || err.code == BRUME_ERR_FILE);
     assert_true(p || strstr(err.text, path));
     return p != NULL;
@@ -175,7 +175,7 @@ static bool load_bytes(const unsigned char *from, size_t size)
 static void test_png__broken_files_are_errors(void **state)
 {
     (void)state;
-    png_free_picture(save_and_load(&whole, 8, true));
+    raster_free(save_and_load(&whole, 8, true));
     size_t n = read_bytes();
     for (size_t cut = 0; cut < n; cut += n / 40)
         assert_false(load_bytes(bytes, cut));
