@@ -630,14 +630,15 @@ static bool take_run(struct expander *expander, bool *going)
     if (!run) {
         return false;
     }
-    if (accepts(pending, TOK_DATA)) {
-        *going = push_run(expander, run);
-        return true;
-    }
+    /* An operator may follow a vector, but no other run. */
     const char *text = expand_frame(expander)->cursor.chunk->text;
     bool vector = data_measure_vector(text + run->offset) == run->length;
     if (vector && accepts(pending, TOK_VECTOR_ID)) {
         *going = push_vector(expander, run);
+        return true;
+    }
+    if (accepts(pending, TOK_DATA)) {
+        *going = push_run(expander, run);
         return true;
     }
     return false;

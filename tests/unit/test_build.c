@@ -151,6 +151,10 @@ static void transformations(void **state)
     NUMBERS(s->shape[1].transform[0], 0.5, 0, 0, -0.5);
     NUMBERS(s->shape[2].transform[0], 1, 0, 0, 0);
     NUMBERS(s->shape[2].transform[2], 0, 0, 1, 2);
+    s = scene("sphere { <1, 2, 3>*2, 1 scale <1, 2, 3>/2 }");
+    NUMBERS(s->shape[0].a, 2, 4, 6);
+    NUMBERS(s->shape[0].transform[1], 0, 1, 0, 0);
+    NUMBERS(s->shape[0].transform[2], 0, 0, 1.5, 0);
 }
 
 static void unions_hand_down(void **state)
