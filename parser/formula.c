@@ -418,15 +418,38 @@ void formula_body(struct parser *parser, const struct value *value,
          &err);
 }
 
+/* Of 4 parameters, for what Brume has no formula of: no number. */
+static int add_nothing(struct parser *parser, struct brume_error *err)
+{
+    struct brume_function *to = brume_function_new(parser->out->scene, 4, err);
+
+    if (to && brume_function_constant(to, 0, err) &&
+        brume_function_constant(to, 0, err) &&
+        brume_function_op(to, BRUME_OP_DIVIDE, err))
+        return brume_add_function(parser->out->scene, to, err);
+    brume_function_free(to);
+    return -1;
+}
+
+/* POV-Ray's functions.inc declares f_comma, whoever uses it. */
 void formula_internal(struct parser *parser, const struct value *number,
                       struct location at)
 {
+    enum { COMMA = 9 };
     struct brume_error err = {0};
+    int id;
 
-    if (!parser->failed)
-        made(parser,
-             brume_add_internal(parser->out->scene, (int)number->v[0], &err),
-             at, &err);
+    if (parser->failed)
+        return;
+    if ((int)number->v[0] == COMMA) {
+        parser_warn(parser, at,
+                    "internal(9), f_comma, is not there yet: it "
+                    "gives no number");
+        id = add_nothing(parser, &err);
+    } else {
+        id = brume_add_internal(parser->out->scene, (int)number->v[0], &err);
+    }
+    made(parser, id, at, &err);
 }
 
 void formula_statement(struct parser *parser, struct location at)
