@@ -79,7 +79,7 @@ static void test_srgb__follows_the_standard(void **state)
 }
 
 static struct raster *save_and_load(const struct image *image, int bits,
-                                         bool alpha)
+                                    bool alpha)
 {
     struct brume_error err = {0};
     if (!png_save(path, image, bits, alpha, &err))
