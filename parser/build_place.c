@@ -236,8 +236,8 @@ static bool place_composite(struct parser *parser, const struct placing *top,
     struct builder *builder = parser->builder;
     const struct object *object = top->object;
     struct brume_shape shape = object->shape;
-    int *part = builder->part + top->first;
-    int *clip = builder->part + top->clips;
+    int *part = builder->part ? builder->part + top->first : NULL;
+    int *clip = builder->part ? builder->part + top->clips : NULL;
     bool group = object->kind == OBJECT_GROUP;
     int id = VANISHED;
 

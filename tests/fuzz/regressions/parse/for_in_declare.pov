@@ -1,0 +1,1 @@
+#declare#for (I,1,3 Meh) #end e n#de
