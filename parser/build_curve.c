@@ -130,7 +130,7 @@ static const struct param prism_params[] = {
     SPLINE("bezier_spline", BEZIER),
     OPEN,
     {.word = "linear_sweep", .kind = PARAM_IGNORED},
-    PARAM_WORD("conic_sweep", PARAM_SWITCH, 1, 0, struct object, shape.conic),
+    PARAM_OWN("conic_sweep", 0, 0, 0),
     {0}};
 static const struct param sor_params[] = {BUILD_OBJECT_ROWS, OPEN, {0}};
 static const struct param sweep_params[] = {
@@ -152,6 +152,19 @@ static const struct param patch_params[] = {
               shape.steps[1]),
     PARAM_OWN("uv_vectors", 4, 4, 0),
     {0}};
+
+/* `conic_sweep`, behind which the heights follow. */
+static void prism_values(struct parser *parser, struct frame *frame,
+                         const struct param *row, const struct value *value,
+                         int count, struct location at)
+{
+    (void)parser;
+    (void)row;
+    (void)value;
+    (void)count;
+    (void)at;
+    ((struct object *)frame->node)->shape.conic = true;
+}
 
 /* Corners of the pattern that is laid over a patch. */
 static void patch_values(struct parser *parser, struct frame *frame,
@@ -189,7 +202,7 @@ static const struct param point_rows[] = {{.word = "points"}, {0}};
         __VA_ARGS__}
 
 CURVE_STATEMENT(lathe, lathe_params, 1, count_rows, .values = NULL);
-CURVE_STATEMENT(prism, prism_params, 3, prism_rows, .values = NULL);
+CURVE_STATEMENT(prism, prism_params, 3, prism_rows, .values = prism_values);
 CURVE_STATEMENT(sor, sor_params, 1, count_rows, .values = NULL);
 CURVE_STATEMENT(sphere_sweep, sweep_params, 1, count_rows, .values = NULL);
 CURVE_STATEMENT(polygon, build_object_params, 1, count_rows, .values = NULL);

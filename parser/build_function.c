@@ -743,6 +743,8 @@ int build_function(struct parser *parser, const struct value *value,
 
     if (value->kind == VALUE_TRANSFORM)
         return transform_function(parser, value->node, err);
+    if (value->kind == VALUE_SPLINE)
+        return build_spline_function(parser, value, err);
     if (value->kind == VALUE_PIGMENT) {
         key = pigment_key(value->node);
         id = make_all(&writer, &key);

@@ -30,6 +30,25 @@ static bool has_heights(const struct frame *frame)
     return object->shape.steps[0] > 0 || heights->name.text;
 }
 
+/* A function's value, or its colour's gray, within 0 to 1. */
+static double height_of(const struct function *function, const double *out)
+{
+    double x = function->results == 5
+                   ? 0.297 * out[0] + 0.589 * out[1] + 0.114 * out[2]
+                   : out[0];
+
+    return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+static bool gives_heights(struct parser *parser, const struct value *value,
+                          struct location at)
+{
+    const struct function *function = value->node;
+
+    return (function->parameters == 3 && function->results == 5) ||
+           build_is_function_of_space(parser, value, at);
+}
+
 /* At the middle of each column and row, the first row at the top, as POV-Ray
  * makes a picture of it. */
 static void function_heights(struct parser *parser, struct frame *frame,
@@ -57,7 +76,7 @@ static void function_heights(struct parser *parser, struct frame *frame,
                 parser_relay(parser, at, &err);
                 return;
             }
-            double height = out[0] > 0 ? (out[0] < 1 ? out[0] : 1) : 0;
+            double height = height_of(function, out);
             if (!build_number(parser, height, at))
                 return;
         }
@@ -71,7 +90,7 @@ static void apply_height_field(struct parser *parser, struct frame *frame,
     else if (has_heights(frame))
         parser_mistake(parser, at,
                        "a height field has one picture or one function");
-    else if (build_is_function_of_space(parser, value, at))
+    else if (gives_heights(parser, value, at))
         function_heights(parser, frame, value, at);
 }
 

@@ -111,9 +111,13 @@ static void check_angle(struct parser *parser, const struct frame *frame,
 static void close_light(struct parser *parser, struct frame *frame,
                         struct location at)
 {
-    const struct brume_light *light = &((struct object *)frame->node)->light;
+    struct brume_light *light = &((struct object *)frame->node)->light;
 
     (void)at;
+    light->radius = fabs(light->radius);
+    light->falloff = fabs(light->falloff);
+    if (light->kind == BRUME_LIGHT_SPOT && light->falloff > 90)
+        light->falloff = 90;
     if (light->kind == BRUME_LIGHT_SPOT) {
         check_angle(parser, frame, "radius", light->radius);
         check_angle(parser, frame, "falloff", light->falloff);

@@ -272,10 +272,21 @@ static void mesh_file(struct parser *parser, struct frame *frame,
 static void apply_mesh(struct parser *parser, struct frame *frame,
                        const struct value *value, struct location at)
 {
-    if (value->kind != VALUE_OBJECT)
+    struct object *mesh = frame->node;
+    const struct object *named = value->node;
+
+    if (value->kind != VALUE_OBJECT) {
         build_object_apply(parser, frame, value, at);
-    else
-        parser_error(parser, at, "a mesh takes triangles only");
+    } else if (named->kind != OBJECT_MESH || mesh->mesh->mesh == NULL ||
+               mesh->mesh->mesh->triangles > 0) {
+        parser_mistake(parser, at, "a mesh takes triangles or one mesh");
+    } else {
+        /* `mesh { IDENTIFIER ... }` */
+        *mesh = *named;
+        mesh->texture.owned = false;
+        mesh->query = 0;
+        mesh->at = frame->at;
+    }
 }
 
 static void close_mesh(struct parser *parser, struct frame *frame,

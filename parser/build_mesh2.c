@@ -75,6 +75,8 @@ static struct index_list *list_of(struct parser *parser, enum build_kind kind)
     return &lists[kind == BUILD_NORMAL_INDICES ? LIST_NORMALS : LIST_UVS];
 }
 
+static const char lacks_textures[] = "textures of single triangles";
+
 static void list_index(struct parser *parser, struct frame *frame,
                        const struct value *number, struct location at)
 {
@@ -83,9 +85,7 @@ static void list_index(struct parser *parser, struct frame *frame,
     uint32_t(*item)[3];
 
     if (frame->arguments > 0 && number->terms == 1) {
-        parser_error(parser, at,
-                     "textures of single triangles are not "
-                     "supported yet");
+        ((struct object *)frame->node)->lacks = lacks_textures;
         return;
     }
     if (!announced(parser, frame, number, at) ||
@@ -142,6 +142,41 @@ LIST_STATEMENT(uv_vectors, list_vector);
 LIST_STATEMENT(face_indices, list_index);
 LIST_STATEMENT(normal_indices, list_index);
 LIST_STATEMENT(uv_indices, list_index);
+
+/* Textures that triangles name by their places in the list. */
+static void list_texture(struct parser *parser, struct frame *frame,
+                         const struct value *value, struct location at)
+{
+    (void)value;
+    frame->arguments = 1;
+    if (parser->builder->listed++ == parser->builder->announced)
+        parser_mistake(parser, at,
+                       "this list announces %lld textures but has "
+                       "more",
+                       (long long)parser->builder->announced);
+    ((struct object *)frame->node)->lacks = lacks_textures;
+}
+
+static void list_texture_count(struct parser *parser, struct frame *frame,
+                               const struct value *number, struct location at)
+{
+    if (number->kind != VALUE_NUMBER || frame->arguments > 0)
+        parser_mistake(parser, at, "a texture_list has a count and textures");
+    else
+        announced(parser, frame, number, at);
+}
+
+const struct statement build_statement_texture_list = {
+    .word = "texture_list",
+    .within = in_mesh2,
+    .takes = BUILD_TAKES(VALUE_TEXTURE),
+    .arguments = list_rows,
+    .needed = 1,
+    .open = open_list,
+    .argument = list_texture_count,
+    .apply = list_texture,
+    .close = close_list,
+};
 
 /* ---- its triangles ----------------------------------------------------- */
 

@@ -137,6 +137,23 @@ const struct statement build_statement_spline = {
     .close = close_spline,
 };
 
+int build_spline_function(struct parser *parser, const struct value *value,
+                          struct brume_error *err)
+{
+    const struct spline *spline = value->node;
+    struct brume_function *function = brume_function_new(parser->out->scene, 1,
+                                                         err);
+
+    if (!function)
+        return -1;
+    if (!brume_function_parameter(function, 0, err) ||
+        !brume_function_spline(function, spline->id, -1, err)) {
+        brume_function_free(function);
+        return -1;
+    }
+    return brume_add_function(parser->out->scene, function, err);
+}
+
 /* ---- values ------------------------------------------------------------ */
 
 static int kind_named(struct parser *parser, const struct name *type,

@@ -33,6 +33,7 @@
     X(VERTEX_VECTORS, vertex_vectors) X(NORMAL_VECTORS, normal_vectors)       \
     X(UV_VECTORS, uv_vectors) X(FACE_INDICES, face_indices)                   \
     X(NORMAL_INDICES, normal_indices) X(UV_INDICES, uv_indices)               \
+    X(TEXTURE_LIST, texture_list)                                             \
     X(PIGMENT, pigment) X(NORMAL, normal) X(FINISH, finish)                   \
     X(TEXTURE, texture) X(INTERIOR_TEXTURE, interior_texture)                 \
     X(REFLECTION, reflection) X(IRID, irid) X(SUBSURFACE, subsurface)         \
@@ -367,6 +368,10 @@ struct child *build_add_child(struct parser *parser, struct members *members,
 void build_camera_lacks(struct parser *parser, const struct camera *camera);
 /* The end of the scene: its sky. */
 bool build_finish_sky(struct parser *parser, struct brume_error *err);
+
+/* A spline as a function of core; -1 with err set. */
+int build_spline_function(struct parser *parser, const struct value *spline,
+                          struct brume_error *err);
 
 /* A shape whose kind its frame's tells. */
 void build_shape_open(struct parser *parser, struct frame *frame);

@@ -24,7 +24,8 @@ static bool assign(struct expander *expander, const struct target *target,
         return true;
     }
     struct symbol *symbol = target->local
-                                ? symbols_local(symbols, target->name)
+                                ? symbols_local_at(symbols, target->name,
+                                                   target->level)
                                 : symbols_declare(symbols, target->name);
     if (!symbol) {
         return report_no_memory(expander->parser);
@@ -127,6 +128,7 @@ static bool declare(struct expander *expander, const struct token *token)
     }
     struct target target = {.name = name,
                             .local = token->kind == TOK_HASH_LOCAL,
+                            .level = expander->parser->symbols.level,
                             .deprecated = deprecated};
     return begin_value(expander, &target, at);
 }

@@ -74,6 +74,7 @@ struct target {
     struct name *name;
     struct value *item;         /* of an array; NULL: the name             */
     bool local;
+    uint32_t level;             /* of the scope that a local belongs to    */
     struct deprecation *deprecated;
 };
 

@@ -266,6 +266,7 @@ const struct keyword keyword_table[] = {
     {"merge", TOK_WORD, KEYWORD_RESERVED},
     {"mesh", TOK_WORD, KEYWORD_RESERVED},
     {"mesh2", TOK_WORD, KEYWORD_RESERVED},
+    {"mesh_camera", TOK_WORD, KEYWORD_RESERVED},
     {"metallic", TOK_WORD, KEYWORD_RESERVED},
     {"method", TOK_WORD, KEYWORD_RESERVED},
     {"metric", TOK_WORD, KEYWORD_RESERVED},

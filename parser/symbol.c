@@ -137,8 +137,9 @@ struct value *symbols_find(const struct name *name)
     return value && value->kind != VALUE_NONE ? value : NULL;
 }
 
+/* Below the declarations of inner scopes, which end before it. */
 static struct symbol *add_symbol(struct symbols *symbols, struct name *name,
-                                 uint32_t level)
+                                 struct symbol **place, uint32_t level)
 {
     struct symbol **head = (struct symbol **)symbols->scope + level;
     struct symbol *symbol = symbols->spare;
@@ -149,23 +150,34 @@ static struct symbol *add_symbol(struct symbols *symbols, struct name *name,
     }
     if (symbol) {
         *symbol = (struct symbol){
-            .name = name, .outer = name->symbol, .next = *head, .level = level};
+            .name = name, .outer = *place, .next = *head, .level = level};
         *head = symbol;
-        name->symbol = symbol;
+        *place = symbol;
     }
     return symbol;
 }
 
 struct symbol *symbols_declare(struct symbols *symbols, struct name *name)
 {
-    return name->symbol ? name->symbol : add_symbol(symbols, name, 0);
+    return name->symbol ? name->symbol
+                        : add_symbol(symbols, name, &name->symbol, 0);
+}
+
+struct symbol *symbols_local_at(struct symbols *symbols, struct name *name,
+                                uint32_t level)
+{
+    struct symbol **place = &name->symbol;
+    while (*place && (*place)->level > level) {
+        place = &(*place)->outer;
+    }
+    return *place && (*place)->level == level
+               ? *place
+               : add_symbol(symbols, name, place, level);
 }
 
 struct symbol *symbols_local(struct symbols *symbols, struct name *name)
 {
-    return name->symbol && name->symbol->level == symbols->level
-               ? name->symbol
-               : add_symbol(symbols, name, symbols->level);
+    return symbols_local_at(symbols, name, symbols->level);
 }
 
 void symbols_undefine(struct name *name)

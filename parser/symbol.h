@@ -72,6 +72,10 @@ struct value *symbol_value(struct symbol *symbol);
  * one of the current scope, old or new. NULL: no memory. */
 struct symbol *symbols_declare(struct symbols *symbols, struct name *name);
 struct symbol *symbols_local(struct symbols *symbols, struct name *name);
+/* The same for an outer scope: a macro may end behind a value that a #local
+ * outside of it declares. */
+struct symbol *symbols_local_at(struct symbols *symbols, struct name *name,
+                                uint32_t level);
 /* #undef: removes the most local declaration, if any. */
 void symbols_undefine(struct name *name);
 

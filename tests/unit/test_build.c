@@ -296,9 +296,13 @@ static void mesh2s_that_are_wrong(void **state)
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
                  "face_indices { 1, <0, 1, 3> } }",
                  BRUME_ERR_SCENE, 1, 1, "");
+    expect_warning("mesh2 { vertex_vectors { 3, 0, x, y }\n"
+                   "texture_list { 1, texture { pigment { rgb 1 } } }\n"
+                   "face_indices { 1, <0, 1, 2>, 0 } }",
+                   1, 1, "textures of single triangles");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
-                 "face_indices { 1, <0, 1, 2>, 0 } }",
-                 BRUME_ERR_SCENE, 2, 30, "not supported yet");
+                 "texture_list { 2, texture { pigment { rgb 1 } } }",
+                 BRUME_ERR_SCENE, 2, 1, "announces 2 items but has 1");
     expect_error("mesh2 { vertex_vectors { 3, 0, x, y }\n"
                  "normal_vectors { 1, z } face_indices { 1, <0, 1, 2> } }",
                  BRUME_ERR_SCENE, 1, 1, "needs normal_indices");
