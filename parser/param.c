@@ -223,7 +223,7 @@ bool param_set(struct parser *parser, const struct param *row, void *node,
     return true;
 }
 
-/* Names the words that could have been chosen. */
+/* Names the words that could have been chosen; a NULL choice: no word is. */
 static bool wrong_choice(struct parser *parser, const struct param *row,
                          const char *choice, struct location at)
 {
@@ -239,6 +239,8 @@ static bool wrong_choice(struct parser *parser, const struct param *row,
                                  : row->choice[i + 1] ? ", "
                                                       : " or ",
                                  row->choice[i]);
+    if (!choice)
+        return parser_error(parser, at, "'%s' must be %s", row->word, words);
     return parser_error(parser, at, "'%s' must be %s, not '%s'", row->word,
                         words, choice);
 }
@@ -246,7 +248,7 @@ static bool wrong_choice(struct parser *parser, const struct param *row,
 bool param_choose(struct parser *parser, const struct param *row, void *node,
                   const char *choice, struct location at)
 {
-    if (row->kind == PARAM_CHOICE)
+    if (choice && row->kind == PARAM_CHOICE)
         for (int i = 0; row->choice[i]; i++)
             if (!strcmp(row->choice[i], choice)) {
                 *(int *)((char *)node + row->offset) = i;

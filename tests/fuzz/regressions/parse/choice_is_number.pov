@@ -1,0 +1,1 @@
+global_settings { integrator 10 }
