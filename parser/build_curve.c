@@ -151,6 +151,7 @@ static const struct param patch_params[] = {
     PARAM_ROW("v_steps", PARAM_INTEGER, 0, 0, 16, 0, 0, struct object,
               shape.steps[1]),
     PARAM_OWN("uv_vectors", 4, 4, 0),
+    PARAM_WITHOUT("uv_mapping", "patterns are not laid over patches yet"),
     {0}};
 
 /* `conic_sweep`, behind which the heights follow. */

@@ -99,15 +99,6 @@ static void light_values(struct parser *parser, struct frame *frame,
     }
 }
 
-static void check_angle(struct parser *parser, const struct frame *frame,
-                        const char *word, double x)
-{
-    if (!(fabs(x) <= 90))
-        parser_mistake(parser, frame->at,
-                       "'%s' of a spotlight is %g, must be from -90 to 90",
-                       word, x);
-}
-
 static void close_light(struct parser *parser, struct frame *frame,
                         struct location at)
 {
@@ -116,11 +107,10 @@ static void close_light(struct parser *parser, struct frame *frame,
     (void)at;
     light->radius = fabs(light->radius);
     light->falloff = fabs(light->falloff);
-    if (light->kind == BRUME_LIGHT_SPOT && light->falloff > 90)
-        light->falloff = 90;
+    /* A cone wider than a half space is one. */
     if (light->kind == BRUME_LIGHT_SPOT) {
-        check_angle(parser, frame, "radius", light->radius);
-        check_angle(parser, frame, "falloff", light->falloff);
+        light->radius = fmin(light->radius, 90);
+        light->falloff = fmin(light->falloff, 90);
     }
     if (light->kind == BRUME_LIGHT_POINT && !light->parallel &&
         frame->given & LIGHT_AIMED_ONLY)

@@ -7,18 +7,31 @@
 #include "parser/builder.h"
 
 enum { TEXT_FONT, TEXT_LINE, TEXT_THICKNESS, TEXT_OFFSET, TEXT_VALUES };
+enum { TEXT_TTF, TEXT_INTERNAL };
 enum { PATH_ROOM = 512 };
 
-/* Fonts that come with POV-Ray; others are told to be missing. */
+/* Fonts that come with POV-Ray, by the numbers of `internal`; others are told
+ * to be missing. */
+static const char *const fonts[] = {"povlogo.ttf", "timrom.ttf", "cyrvetic.ttf",
+                                    "crystal.ttf"};
+enum { FONTS = sizeof fonts / sizeof *fonts };
+
 static bool comes_along(const char *name)
 {
-    static const char *const fonts[] = {"crystal.ttf", "cyrvetic.ttf",
-                                        "povlogo.ttf", "timrom.ttf"};
-
-    for (size_t i = 0; i < sizeof fonts / sizeof *fonts; i++)
+    for (int i = 0; i < FONTS; i++)
         if (strcmp(name, fonts[i]) == 0)
             return true;
     return false;
+}
+
+/* `internal N`: a number out of range is 0, as in POV-Ray. */
+static struct string font_named(const struct value *font)
+{
+    double x = font->kind == VALUE_NUMBER ? font->v[0] : 0;
+    const char *name = fonts[x >= 0 && x < FONTS ? (int)x : 0];
+
+    return font->kind == VALUE_STRING ? font->string
+                                      : (struct string){name, strlen(name)};
 }
 
 /* The font's file, or that of one that stands for it, in `room`. */
@@ -38,7 +51,8 @@ static void add_line(struct parser *parser, const struct value *value,
                      struct location at)
 {
     char room[PATH_ROOM];
-    const char *path = find_font(parser, value[TEXT_FONT].string, at, room);
+    const char *path = find_font(parser, font_named(&value[TEXT_FONT]), at,
+                                 room);
     struct value offset = value_promote(value[TEXT_OFFSET], 2);
     struct brume_error err = {0};
     double *number;
@@ -62,7 +76,9 @@ static void text_values(struct parser *parser, struct frame *frame,
 {
     struct brume_shape *shape = &((struct object *)frame->node)->shape;
 
-    if (count != TEXT_VALUES || value[TEXT_FONT].kind != VALUE_STRING ||
+    enum value_kind font = row->id == TEXT_INTERNAL ? VALUE_NUMBER
+                                                    : VALUE_STRING;
+    if (count != TEXT_VALUES || value[TEXT_FONT].kind != font ||
         value[TEXT_LINE].kind != VALUE_STRING ||
         value[TEXT_THICKNESS].kind != VALUE_NUMBER ||
         value[TEXT_OFFSET].kind != VALUE_NUMBER) {
@@ -87,7 +103,10 @@ static void close_text(struct parser *parser, struct frame *frame,
 }
 
 static const struct param text_params[] = {
-    BUILD_OBJECT_ROWS, PARAM_OWN("ttf", TEXT_VALUES, TEXT_VALUES, 0), {0}};
+    BUILD_OBJECT_ROWS,
+    PARAM_OWN("ttf", TEXT_VALUES, TEXT_VALUES, TEXT_TTF),
+    PARAM_OWN("internal", TEXT_VALUES, TEXT_VALUES, TEXT_INTERNAL),
+    {0}};
 
 const struct statement build_statement_text = {
     .word = "text",

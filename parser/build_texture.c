@@ -62,6 +62,23 @@ static const struct param pigment_params[] = {
 static const struct param pigment_color = PARAM_ANY("color", PARAM_COLOR, 0, 0,
                                                     struct pigment, color);
 
+/* `pigment { Orange*0.8 filter 0.6 }`: a colour of filter and transmit alone
+ * belongs to the one before it. */
+static bool lets_through(struct pigment *pigment, const struct frame *frame,
+                         const struct value *color)
+{
+    const double *v = color->v;
+
+    if (!(frame->given & FRAME_PLAIN) || color->kind != VALUE_NUMBER ||
+        color->terms != VALUE_TERMS || v[0] != 0 || v[1] != 0 || v[2] != 0 ||
+        (v[3] == 0 && v[4] == 0))
+        return false;
+    for (int i = 3; i < VALUE_TERMS; i++)
+        if (v[i] != 0)
+            pigment->color[i] = v[i];
+    return true;
+}
+
 static void pigment_argument(struct parser *parser, struct frame *frame,
                              const struct value *number, struct location at)
 {
@@ -71,6 +88,8 @@ static void pigment_argument(struct parser *parser, struct frame *frame,
         return;
     if (build_pattern_lists(frame)) {
         build_pattern_choice(parser, frame, number, at);
+    } else if (lets_through(pigment, frame, number)) {
+        return;
     } else if (frame->given & (FRAME_CHOSEN | FRAME_PLAIN)) {
         parser_mistake(parser, at, "a pigment of this kind takes %s",
                        frame->given & FRAME_PLAIN ? "1 color" : "no color");

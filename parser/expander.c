@@ -329,6 +329,7 @@ static int word_kind(const struct expander *expander, const struct token *token)
 {
     switch (token->kind) {
     case TOK_NUMBER_FUNCTION:
+    case TOK_INTERNAL:
     case TOK_RGB:
     case TOK_FILTER:
     case TOK_TRANSMIT:

@@ -50,8 +50,8 @@ static void lights(void **state)
     assert_true(!l->shadows && !l->media_interaction && l->media_attenuation);
     NUMBERS(s->light[2].point_at, 1, 0, 0);
     NUMBERS(s->light[3].point_at, 2, 0, 0);
-    expect_error("light_source { 0, 1 spotlight radius 91 }", BRUME_ERR_SCENE,
-                 1, 1, "'radius' of a spotlight is 91");
+    s = scene("light_source { 0, 1 spotlight radius -30 falloff 100 }");
+    NUMBERS(&s->light[0].radius, 30, 90);
     expect_error("light_source { 0 }", BRUME_ERR_SCENE, 1, 18,
                  "'light_source' needs its color");
     expect_error("light_source { 0, 1 pigment { rgb 1 } }", BRUME_ERR_SCENE, 1,
@@ -358,6 +358,9 @@ static void pigments(void **state)
     assert_int_equal(diag.warnings, 1);
     expect_error("sphere { 0, 1 pigment { rgb 1, rgb 0 } }", BRUME_ERR_SCENE, 1,
                  32, "1 color");
+    const brume_scene *t = scene(
+        "sphere { 0, 1 pigment { rgb <1, .5, 0>*.5 filter .6 } }");
+    NUMBERS(t->material[0].color[0], .5, .25, 0, .6, 0);
 }
 
 static void textures(void **state)
