@@ -375,17 +375,17 @@ void build_misplaced(struct parser *parser, const struct frame *frame,
 
 /* Words that change nothing in the picture are told of once for each reason.
  */
-static void note_once(struct parser *parser, const struct param *row,
-                      struct location at)
+void build_note(struct parser *parser, const char *word, const char *note,
+                struct location at)
 {
     struct builder *builder = parser->builder;
 
     for (int i = 0; i < builder->notes; i++)
-        if (builder->note[i] == row->note)
+        if (builder->note[i] == note)
             return;
     if (builder->notes < BUILD_NOTES)
-        builder->note[builder->notes++] = row->note;
-    parser_warn(parser, at, "'%s' has no effect: %s", row->word, row->note);
+        builder->note[builder->notes++] = note;
+    parser_warn(parser, at, "'%s' has no effect: %s", word, note);
 }
 
 /* The maps that whatever can be moved takes. */
@@ -446,7 +446,7 @@ static void note_set(struct parser *parser, struct frame *frame,
 
     frame->given |= row->given;
     if (row->note)
-        note_once(parser, row, at);
+        build_note(parser, row->word, row->note, at);
     if (group && group->set)
         group->set(parser, frame, row, at);
     else if (statement->set)

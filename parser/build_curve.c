@@ -122,6 +122,8 @@ static const struct param lathe_params[] = {
     SPLINE("cubic_spline", CUBIC),
     SPLINE("bezier_spline", BEZIER),
     {0}};
+enum { SWEEP_LINEAR, SWEEP_CONIC };
+
 static const struct param prism_params[] = {
     BUILD_OBJECT_ROWS,
     SPLINE("linear_spline", LINEAR),
@@ -129,8 +131,8 @@ static const struct param prism_params[] = {
     SPLINE("cubic_spline", CUBIC),
     SPLINE("bezier_spline", BEZIER),
     OPEN,
-    {.word = "linear_sweep", .kind = PARAM_IGNORED},
-    PARAM_OWN("conic_sweep", 0, 0, 0),
+    PARAM_OWN("linear_sweep", 0, 0, SWEEP_LINEAR),
+    PARAM_OWN("conic_sweep", 0, 0, SWEEP_CONIC),
     {0}};
 static const struct param sor_params[] = {BUILD_OBJECT_ROWS, OPEN, {0}};
 static const struct param sweep_params[] = {
@@ -154,17 +156,16 @@ static const struct param patch_params[] = {
     PARAM_WITHOUT("uv_mapping", "patterns are not laid over patches yet"),
     {0}};
 
-/* `conic_sweep`, behind which the heights follow. */
+/* The kind of sweep, behind which the heights follow. */
 static void prism_values(struct parser *parser, struct frame *frame,
                          const struct param *row, const struct value *value,
                          int count, struct location at)
 {
     (void)parser;
-    (void)row;
     (void)value;
     (void)count;
     (void)at;
-    ((struct object *)frame->node)->shape.conic = true;
+    ((struct object *)frame->node)->shape.conic = row->id == SWEEP_CONIC;
 }
 
 /* Corners of the pattern that is laid over a patch. */

@@ -3,18 +3,28 @@
 
 #include "parser/builder.h"
 
-enum { GLOBAL_INTEGRATOR = 1, GLOBAL_GAMMA = 2 };
+enum { GLOBAL_INTEGRATOR = 1, GLOBAL_GAMMA = 2, GLOBAL_CHARSET = 4 };
 enum { TRANSPORT_MEDIA = 1, TRANSPORT_SURFACES = 2, TRANSPORT_ENVIRONMENT = 4 };
 
 static const char *const unit_words[] = {"pov", "physical", NULL};
 static const char *const integrator_words[] = {"path", "photon", "progressive",
                                                NULL};
 
+enum { CHARSET_ASCII, CHARSET_UTF8, CHARSET_SYS };
 static const char *const charset_words[] = {"ascii", "utf8", "sys", NULL};
 static const char picture_note[] = "Brume has no pictures of that kind";
+static const char depth_note[] = "paths end by chance, so that no light is "
+                                 "lost at a depth";
 
 #define GLOBAL(word, kind, start, low, high, open, given)                      \
     PARAM_ROW(#word, kind, start, low, high, open, given, struct globals, word)
+
+/* Checked, and without effect. */
+#define GLOBAL_NOTED(word_, kind_, low_, high_, note_)                         \
+    {                                                                          \
+        .word = #word_, .kind = kind_, .low = low_, .high = high_,             \
+        .offset = offsetof(struct globals, word_), .alone = NAN, .note = note_ \
+    }
 
 const struct param build_globals_params[] = {
     GLOBAL(ambient_light, PARAM_RGB, 1, -INFINITY, INFINITY, 0, 0),
@@ -28,10 +38,11 @@ const struct param build_globals_params[] = {
      .alone = 2.2,
      .offset = offsetof(struct globals, assumed_gamma)},
     {.word = "srgb", .kind = PARAM_IGNORED},
-    PARAM_WORDS("charset", charset_words, 0, struct globals, charset),
+    PARAM_WORDS("charset", charset_words, GLOBAL_CHARSET, struct globals,
+                charset),
     PARAM_WITHOUT("hf_gray_16", picture_note),
-    GLOBAL(max_trace_level, PARAM_INTEGER, 5, 1, 256, 0, 0),
-    GLOBAL(adc_bailout, PARAM_FLOAT, 1.0 / 255, 0, INFINITY, 0, 0),
+    GLOBAL_NOTED(max_trace_level, PARAM_INTEGER, 1, 256, depth_note),
+    GLOBAL_NOTED(adc_bailout, PARAM_FLOAT, 0, INFINITY, depth_note),
     GLOBAL(accuracy, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
     GLOBAL(time_limit, PARAM_FLOAT, 0, 0, INFINITY, PARAM_ABOVE, 0),
     PARAM_WITHOUT("max_intersections", "Brume has no such bound"),
@@ -79,6 +90,8 @@ static void set_globals(struct parser *parser, struct frame *frame,
         parser->out->has_integrator = true;
         parser->out->integrator = BRUME_INTEGRATOR_PATH;
     }
+    if (row->given == GLOBAL_CHARSET && globals->charset == CHARSET_SYS)
+        parser_warn(parser, at, "charset sys is taken as utf8");
     if (row->given == GLOBAL_GAMMA) {
         parser->out->assumed_gamma = globals->assumed_gamma;
         if (globals->assumed_gamma != 1)
@@ -133,7 +146,6 @@ static const struct param photons_params[] = {
     PHOTONS(autostop, PARAM_FLOAT, 0),
     PHOTONS(expand_thresholds, PARAM_PAIR, 0),
     PHOTONS(radius, PARAM_PAIR, 0),
-    PHOTONS(steps, PARAM_FLOAT, 0),
     PHOTONS(max_trace_level, PARAM_FLOAT, 0),
     PHOTONS(adc_bailout, PARAM_FLOAT, 0),
     PARAM_OWN("save_file", 1, 1, 0),
@@ -228,6 +240,28 @@ const struct statement build_statement_global_subsurface = {
     .open = open_subsurface,
 };
 
+/* `light_units physical` and --transport full ask for all transport; what is
+ * written out wins. */
+static bool transported(const struct globals *globals, unsigned bit, int said,
+                        bool full)
+{
+    return globals->transport_given & bit ? said != 0 : full;
+}
+
+static bool is_full(const struct parser *parser)
+{
+    return parser->builder->globals.light_units == 1 ||
+           parser->in->full_transport;
+}
+
+static bool is_indirect(const struct parser *parser)
+{
+    const struct globals *globals = &parser->builder->globals;
+
+    return transported(globals, TRANSPORT_SURFACES, globals->transport.surfaces,
+                       is_full(parser));
+}
+
 static void globals_lacks(struct parser *parser)
 {
     const struct globals *globals = &parser->builder->globals;
@@ -237,31 +271,24 @@ static void globals_lacks(struct parser *parser)
         build_lacks(parser, "POV-Ray's photons", here);
     if (globals->has_radiosity)
         build_lacks(parser, "radiosity", here);
+    else if (parser->builder->no_radiosity && is_indirect(parser))
+        build_lacks(parser, "no_radiosity", here);
 }
 
 /* ---- the end of the scene ---------------------------------------------- */
-
-/* `light_units physical` and --transport full ask for all transport; what is
- * written out wins. */
-static bool transported(const struct globals *globals, unsigned bit, int said,
-                        bool full)
-{
-    return globals->transport_given & bit ? said != 0 : full;
-}
 
 static bool finish_globals(struct parser *parser, struct brume_error *err)
 {
     const struct globals *globals = &parser->builder->globals;
     const struct transport *said = &globals->transport;
     struct brume_globals to = BRUME_GLOBALS_INIT;
-    bool full = globals->light_units == 1 || parser->in->full_transport;
+    bool full = is_full(parser);
 
     memcpy(to.background, globals->background, sizeof to.background);
     memcpy(to.ambient_light, globals->ambient_light, sizeof to.ambient_light);
     to.media_multiple = transported(globals, TRANSPORT_MEDIA, said->media,
                                     full);
-    to.surfaces_indirect = transported(globals, TRANSPORT_SURFACES,
-                                       said->surfaces, full);
+    to.surfaces_indirect = is_indirect(parser);
     to.environment = transported(globals, TRANSPORT_ENVIRONMENT,
                                  said->environment, full);
     to.physical_units = globals->light_units == 1;

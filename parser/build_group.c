@@ -217,6 +217,10 @@ static void set_clips(struct parser *parser, struct frame *frame,
 static void close_clips(struct parser *parser, struct frame *frame,
                         struct location at)
 {
+    static const char bounds_note[] = "Brume finds the bounds itself";
+
+    if (frame->kind == BUILD_BOUNDED_BY)
+        build_note(parser, "bounded_by", bounds_note, frame->at);
     if (!frame->given)
         parser_mistake(parser, at, "'%s' needs an object before this",
                        build_statement_of(frame)->word);

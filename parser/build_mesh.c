@@ -4,13 +4,8 @@
 #include "lib/mesh.h"
 #include "parser/builder.h"
 
-const struct param build_mesh_params[] = {
-    BUILD_OBJECT_ROWS,
-    PARAM_ANY("inside_vector", PARAM_VECTOR, 0, 0, struct object, inside),
-    PARAM_WITHOUT("hierarchy", "Brume builds its own hierarchies"),
-    PARAM_OWN("ply", 1, 1, 0),
-    PARAM_OWN("obj", 1, 1, 0),
-    {0}};
+static const struct param mesh_params[] = {
+    BUILD_MESH_ROWS, PARAM_OWN("ply", 1, 1, 0), PARAM_OWN("obj", 1, 1, 0), {0}};
 static const struct param triangle_params[] = {
     BUILD_OBJECT_ROWS, PARAM_OWN("uv_vectors", 3, 3, 0), {0}};
 
@@ -305,7 +300,7 @@ const struct statement build_statement_mesh = {
     .makes = VALUE_OBJECT,
     .takes = BUILD_TAKES_WORN | BUILD_TAKES(VALUE_OBJECT),
     .size = sizeof(struct object),
-    .params = build_mesh_params,
+    .params = mesh_params,
     .open = open_mesh,
     .values = mesh_file,
     .apply = apply_mesh,

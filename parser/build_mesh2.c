@@ -180,6 +180,8 @@ const struct statement build_statement_texture_list = {
 
 /* ---- its triangles ----------------------------------------------------- */
 
+static const struct param mesh2_params[] = {BUILD_MESH_ROWS, {0}};
+
 static void open_mesh2(struct parser *parser, struct frame *frame)
 {
     for (int i = 0; i < 3; i++)
@@ -267,7 +269,7 @@ const struct statement build_statement_mesh2 = {
     .makes = VALUE_OBJECT,
     .takes = BUILD_TAKES_WORN,
     .size = sizeof(struct object),
-    .params = build_mesh_params,
+    .params = mesh2_params,
     .open = open_mesh2,
     .apply = build_object_apply,
     .move = build_object_move,

@@ -92,6 +92,8 @@ static void note_lacks(struct parser *parser, const struct object *object)
         build_lacks(parser, "no_reflection", object->at);
     if (object->double_illuminate)
         build_lacks(parser, "double_illuminate", object->at);
+    if (object->no_radiosity)
+        parser->builder->no_radiosity = true;
     if (object->cutaway)
         build_lacks(parser, "cutaway_textures", object->at);
 }

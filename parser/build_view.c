@@ -215,12 +215,11 @@ static const struct param mesh_camera_arguments[] = {
               rays),
     PARAM_ROW("distribution type", PARAM_INTEGER, 0, 0, 3, 0, 0, struct camera,
               distribution),
+    PARAM_ROW("greatest distance", PARAM_FLOAT, 0, 0, INFINITY, 0, 0,
+              struct camera, max_distance),
     {0}};
 static const struct param mesh_camera_params[] = {
-    PARAM_ROW("max_distance", PARAM_FLOAT, 0, 0, INFINITY, 0, 0, struct camera,
-              max_distance),
-    PARAM_WORD("smooth", PARAM_SWITCH, 1, 0, struct camera, mesh_smooth),
-    {0}};
+    PARAM_WORD("smooth", PARAM_SWITCH, 1, 0, struct camera, mesh_smooth), {0}};
 
 static void apply_mesh_camera(struct parser *parser, struct frame *frame,
                               const struct value *value, struct location at)

@@ -167,6 +167,9 @@ enum { FRAME_PATTERN = 1 << 16, FRAME_CHOSEN = 1 << 17, FRAME_LIST = 1 << 18,
     {.word = "inverse", .kind = PARAM_IGNORED, .given = OBJECT_INVERSE},      \
     PARAM_WITHOUT("sturm", "Brume solves in one way"),                        \
     PARAM_WITHOUT("hierarchy", "Brume builds its own hierarchies")
+#define BUILD_MESH_ROWS                                                       \
+    BUILD_OBJECT_ROWS,                                                        \
+    PARAM_ANY("inside_vector", PARAM_VECTOR, 0, 0, struct object, inside)
 /* Of those that hold others. */
 #define BUILD_GROUP_ROWS                                                      \
     BUILD_OBJECT_ROWS,                                                        \
@@ -175,7 +178,7 @@ enum { FRAME_PATTERN = 1 << 16, FRAME_CHOSEN = 1 << 17, FRAME_LIST = 1 << 18,
                cutaway)
 
 extern const struct param build_camera_params[], build_light_params[],
-    build_object_params[], build_mesh_params[], build_finish_params[],
+    build_object_params[], build_finish_params[],
     build_fire_params[], build_scattering_params[], build_media_params[],
     build_globals_params[], build_transport_params[],
     build_reflection_params[], build_interior_params[];
@@ -188,7 +191,7 @@ struct transport {
 /* POV-Ray's ways to find indirect light: kept, and told to be missing. */
 struct photons {
     double spacing, count, gather[2], media[2], jitter, autostop;
-    double expand_thresholds[2], radius[2], steps;
+    double expand_thresholds[2], radius[2];
     double max_trace_level, adc_bailout;
 };
 
@@ -246,6 +249,7 @@ struct builder {
     const struct sky_sphere *sky;
     const struct media *atmosphere[BRUME_MAX_INTERIOR_MEDIA];
     int atmospheres;
+    bool no_radiosity;              /* something placed says so            */
     struct location atmosphere_at;
     struct model_mesh *meshes;      /* all that were made                  */
     double corner[6][3];            /* arguments of the open triangle      */
@@ -352,6 +356,9 @@ bool build_map_add(struct parser *parser, struct map *map, double at,
 void build_color_argument(struct parser *parser, struct frame *frame,
                           const struct value *number, struct location at);
 
+/* Tells, once for each `note`, that a word has no effect. */
+void build_note(struct parser *parser, const char *word, const char *note,
+                struct location at);
 /* Notes what the picture does not show ("normals"), of something that is
  * placed: of a placed object with its texture, and interior or NULL. */
 void build_lacks(struct parser *parser, const char *what, struct location at);
