@@ -41,7 +41,7 @@ C       := $(CC) -std=c11 $(COMMON) -Wmissing-prototypes -Wstrict-prototypes
 CPP     := $(CXX) -std=c++17 $(COMMON)
 CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
 
-PACKAGES := OpenEXR libpng jansson freetype2
+PACKAGES := OpenEXR libpng jansson freetype2 zlib blosc
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE
 C       += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)

@@ -92,13 +92,8 @@ const vdb_record *tree_of(const vdb_file &file, const vdb_record &r)
 bool check_record(const vdb_file &file, const vdb_record &r, brume_error *err)
 {
     const vdb_entry &e = r.entry;
-    if (e.kind == VDB_LEVEL_SET)
-        return brume_fail_file(err, file.path,
-                               "grid '%s' is a level set, a "
-                               "surface: convert it to a fog volume (Houdini:"
-                               " VDB Convert, SDF to Fog; OpenVDB: "
-                               "sdfToFogVolume)",
-                               e.name);
+    if (!vdb_check_class(&e, file.path, err))
+        return false;
     if (!e.scalar)
         return brume_fail_file(err, file.path,
                                "grid '%s' is of type %s (%s);"

@@ -174,6 +174,17 @@ bool vdb_file_named(const struct vdb_entry *e, const char *name)
            (strlen(name) == plain && strncmp(e->name, name, plain) == 0);
 }
 
+bool vdb_check_class(const struct vdb_entry *e, const char *path,
+                     struct brume_error *err)
+{
+    return e->kind != VDB_LEVEL_SET ||
+           brume_fail_file(err, path,
+                           "grid '%s' is a level set, a surface: convert it to "
+                           "a fog volume (Houdini: VDB Convert, SDF to Fog; "
+                           "OpenVDB: sdfToFogVolume)",
+                           e->name);
+}
+
 /* "Tree_float_5_4_3_HalfFloat", in r->tree, to its parts. */
 static void split_type(struct vdb_record *r)
 {

@@ -47,6 +47,10 @@ void vdb_file_close(struct vdb_file *file);
 /* True where `name` is the grid's, with or without its number. */
 bool vdb_file_named(const struct vdb_entry *entry, const char *name);
 
+/* False with err set where a grid is a level set, which no medium is. */
+bool vdb_check_class(const struct vdb_entry *entry, const char *path,
+                     struct brume_error *err);
+
 struct vdb_layout {
     uint32_t compression;
     unsigned value;         /* bytes of a value in memory and as a tile    */

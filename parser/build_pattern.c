@@ -258,6 +258,7 @@ enum { FILE_NAMED, FILE_INTERPOLATE, FILE_FIT, FILE_UP };
 static const struct param file_rows[] = {
     PARAM_OWN("df3", 1, 1, FILE_NAMED),
     PARAM_OWN("vdb", 1, 2, FILE_NAMED),
+    PARAM_OWN("nvdb", 1, 2, FILE_NAMED),
     PARAM_OWN("interpolate", 1, 1, FILE_INTERPOLATE),
     PARAM_OWN("fit", 0, 0, FILE_FIT),
     PARAM_OWN("up", 1, 1, FILE_UP),

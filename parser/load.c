@@ -5,6 +5,7 @@
 #include "lib/df3.h"
 #include "lib/grid.h"
 #include "lib/mesh.h"
+#include "lib/nvdb.h"
 #include "lib/obj.h"
 #include "lib/ply.h"
 #include "parser/builder.h"
@@ -108,9 +109,26 @@ static void warn_of_bad(struct parser *parser, const struct data_file *file,
                     grid->bad_negative);
 }
 
-static bool is_vdb(const struct data_file *file)
+/* What reads the grids of a format; list is NULL where a file is one grid. */
+struct grid_format {
+    const char *word;
+    struct vdb_list *(*list)(const char *path, struct brume_error *err);
+    struct grid *(*load)(const char *path, const char *name, enum vdb_role role,
+                         struct brume_error *err);
+};
+
+static const struct grid_format grid_formats[] = {
+    {"vdb", vdb_list_new, vdb_load},
+    {"nvdb", nvdb_list_new, nvdb_load},
+    {"df3", NULL, NULL},
+};
+
+static const struct grid_format *format_of(const struct data_file *file)
 {
-    return !strcmp(file->format, "vdb");
+    for (size_t i = 0; i < sizeof grid_formats / sizeof *grid_formats; i++)
+        if (!strcmp(file->format, grid_formats[i].word))
+            return &grid_formats[i];
+    return NULL;
 }
 
 /* Which grid of the file is meant: the named one, or the one for the role. */
@@ -121,7 +139,7 @@ static bool choose_grid(struct parser *parser, const struct data_file *file,
     struct vdb_list *list;
 
     memset(name, 0, 64);
-    if (!is_vdb(file))
+    if (!format_of(file)->list)
         return true;
     if (file->grid.text && file->grid.length > 63)
         return parser_error(parser, file->at,
@@ -131,7 +149,7 @@ static bool choose_grid(struct parser *parser, const struct data_file *file,
         memcpy(name, file->grid.text, file->grid.length);
         return true;
     }
-    list = vdb_list_new(path, &err);
+    list = format_of(file)->list(path, &err);
     const struct vdb_entry *entry = list ? vdb_choose(list, role, path, &err)
                                          : NULL;
     if (entry)
@@ -146,7 +164,7 @@ static bool choose_filter(struct parser *parser, const struct data_file *file,
     int interpolate = file->interpolate;
 
     if (interpolate < 0)
-        interpolate = is_vdb(file) ? 1 : 0;
+        interpolate = format_of(file)->list ? 1 : 0;
     *filter = interpolate == 0 ? GRID_NEAREST : GRID_TRILINEAR;
     if (interpolate <= 1)
         return true;
@@ -193,8 +211,10 @@ static struct loaded_grid *load_grid(struct parser *parser,
     out->path = path;
     memcpy(out->name, name, sizeof out->name);
     out->filter = filter;
-    struct grid *grid = is_vdb(file) ? vdb_load(path, name, VDB_DENSITY, &err)
-                                     : df3_load(path, filter, &err);
+    const struct grid_format *format = format_of(file);
+    struct grid *grid = format->load
+                            ? format->load(path, name, VDB_DENSITY, &err)
+                            : df3_load(path, filter, &err);
     if (!grid) {
         parser_relay(parser, file->at, &err);
         return NULL;
@@ -233,12 +253,7 @@ bool load_density(struct parser *parser, const struct data_file *file,
     enum grid_filter filter;
     char name[64];
 
-    if (!is_vdb(file) && strcmp(file->format, "df3"))
-        return parser_error(parser, file->at,
-                            "density_file '%s' is not "
-                            "supported yet",
-                            file->format);
-    if (!is_vdb(file) && (file->fit || file->grid.text))
+    if (!format_of(file)->list && (file->fit || file->grid.text))
         return parser_error(parser, file->at,
                             "a df3 file has no grid to "
                             "name or to fit: it fills the unit cube");

@@ -14,7 +14,7 @@ struct loaded_mesh;
 
 /* A file as the scene names it: `vdb "file" "grid" interpolate N fit up z`. */
 struct data_file {
-    const char *format;         /* the word: df3, vdb; ply, obj            */
+    const char *format;         /* the word: df3, vdb, nvdb; ply, obj      */
     struct string name, grid;   /* grid.text NULL: none named              */
     struct location at;         /* of the file's name                      */
     int interpolate;            /* -1: the format's default                */

@@ -191,7 +191,13 @@ static int make_files(void **state)
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     (void)state;
 
+    static unsigned char nvdb[8192];
+    FILE *data = fopen("tests/data/tiles.nvdb", "rb");
+    assert_non_null(data);
+    size_t size = fread(nvdb, 1, sizeof nvdb, data);
+    fclose(data);
     assert_non_null(mkdtemp(folder));
+    write_file("tiles.nvdb", nvdb, size);
     assert_true(vdb_save(in_folder("fire.vdb"),
                          (const struct grid *const *)good, 3, 0, NULL));
     assert_true(vdb_save(in_folder("bad.vdb"), (const struct grid *const *)&bad,
@@ -208,8 +214,9 @@ static int make_files(void **state)
 
 static int remove_files(void **state)
 {
-    static const char *const names[] = {"fire.vdb", "bad.vdb", "two.df3",
-                                        "cut.df3",  "one.ply", "one.obj"};
+    static const char *const names[] = {"fire.vdb",  "bad.vdb", "two.df3",
+                                        "cut.df3",   "one.ply", "one.obj",
+                                        "tiles.nvdb"};
 
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlink(in_folder(names[i]));
@@ -296,6 +303,28 @@ static void vdb_boxes(void **state)
     NUMBERS(f->transform[2], 0, 1, 0, 0);
 }
 
+static void nvdb_files(void **state)
+{
+    (void)state;
+    const struct brume_medium *m = medium_of(
+        "density { density_file nvdb \"tiles.nvdb\" }\n"
+        "density { density_file nvdb \"tiles.nvdb\" \"shared\" fit\n"
+        "  interpolate 0 }");
+    const brume_scene *s = result.scene;
+    assert_int_equal(s->grids, 2);
+    assert_string_equal(s->grid[0].name, "density");
+    assert_int_equal(s->grid[0].filter, GRID_TRILINEAR);
+    assert_string_equal(s->grid[1].name, "shared");
+    assert_int_equal(s->grid[1].filter, GRID_NEAREST);
+    /* 136 voxels of 1/2 along x, to the unit cube. */
+    NUMBERS(s->field[m->density[1]].transform[0], 2.0 / 136, 0, 0, 0.5 / 136);
+    expect_error("media { density { density_file nvdb \"fire.vdb\" } }",
+                 BRUME_ERR_FILE, 1, 37, "not a NanoVDB file");
+    expect_error("media { density { density_file nvdb \"tiles.nvdb\" \"no\" "
+                 "} }",
+                 BRUME_ERR_FILE, 1, 37, "no grid named 'no'");
+}
+
 static void files_that_are_wrong(void **state)
 {
     (void)state;
@@ -343,6 +372,7 @@ int main(void)
         cmocka_unit_test(df3_files),
         cmocka_unit_test(all_transforms_reach_a_density),
         cmocka_unit_test(vdb_files),
+        cmocka_unit_test(nvdb_files),
         cmocka_unit_test(vdb_boxes),
         cmocka_unit_test(files_that_are_wrong),
         cmocka_unit_test(mesh_files),

@@ -458,6 +458,8 @@ static const struct words_use words_uses[] = {
     WORDS_PAVEMENT("pattern", "number_of_sides 4 number_of_tiles 3 pattern 2"),
     WORDS_ANY("uv_mapping", "bozo uv_mapping", "bozo"),
     WORDS_ANY("vdb", "density_file vdb \"tests/data/tiles.vdb\"", "spherical"),
+    WORDS_ANY("nvdb", "density_file nvdb \"tests/data/tiles.nvdb\"",
+              "spherical"),
     WORDS_ANY("df3", "density_file df3 \"tests/data/cube.df3\"", "spherical"),
     WORDS_ANY("interpolate",
               "density_file df3 \"tests/data/cube.df3\" interpolate 1",
