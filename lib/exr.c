@@ -371,6 +371,26 @@ struct exr_picture *exr_load(const char *path, struct brume_error *err)
     return NULL;
 }
 
+bool exr_text_of(const char *path, const char *name, char *out, size_t size)
+{
+    struct brume_error err = {0};
+    struct session s = {path, -1, &err};
+    exr_context_initializer_t init = initializer(&s);
+    exr_context_t context = NULL;
+    int32_t length = 0;
+    const char *text = NULL;
+    bool ok = exr_start_read(&context, path, &init) == EXR_ERR_SUCCESS &&
+              exr_attr_get_string(context, 0, name, &length, &text) ==
+                  EXR_ERR_SUCCESS &&
+              length >= 0 && (size_t)length < size;
+    if (ok) {
+        memcpy(out, text, (size_t)length);
+        out[length] = '\0';
+    }
+    exr_finish(&context);
+    return ok;
+}
+
 void exr_free(struct exr_picture *picture)
 {
     if (!picture)

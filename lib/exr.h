@@ -4,6 +4,7 @@
  * are, NaN and infinity too. */
 #ifndef LIB_EXR_H
 #define LIB_EXR_H
+#include <stdbool.h>
 #include <stddef.h>
 #include "lib/error.h"
 #include "lib/image.h"
@@ -32,6 +33,10 @@ struct exr_picture {
  * lines or tiles (the largest level of these). */
 struct exr_picture *exr_load(const char *path, struct brume_error *err);
 void exr_free(struct exr_picture *picture);
+
+/* The string of that name in the header of the file's first part; false where
+ * there is none, the file can't be read, or `size` bytes do not hold it. */
+bool exr_text_of(const char *path, const char *name, char *out, size_t size);
 
 /* The plane of a channel, or NULL. */
 const float *exr_plane(const struct exr_picture *picture, const char *name);

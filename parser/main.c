@@ -104,6 +104,12 @@ static void on_planned(void *user, const struct brume_plan *plan)
     free(text);
 }
 
+static void on_measured(void *user, const struct measure *measure)
+{
+    (void)user;
+    measure_table(measure, stdout);
+}
+
 /* ---- the run ----------------------------------------------------------- */
 
 static enum brume_code act(struct run *run)
@@ -114,6 +120,7 @@ static enum brume_code act(struct run *run)
         .message = on_message,
         .frame = on_frame,
         .planned = on_planned,
+        .measured = on_measured,
         .progress = on_progress,
         .finished = on_finished,
         .stopped = on_stopped,
@@ -179,17 +186,33 @@ static bool asks_for_help(int count, char **word)
     return false;
 }
 
+static void check_measure(const struct options *o, bool measure,
+                          struct diag *diag)
+{
+    if (!measure && (o->reference || o->budget > 0))
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "--reference and --budget are for 'brume measure'");
+    if (measure && (o->spp || o->error > 0 || o->seconds > 0))
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "'brume measure' tries --spp, --error and --time itself");
+    if (measure && o->output && strcmp(o->output, "-") == 0)
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "'brume measure' writes files; name them by +O");
+}
+
 static void read_options(struct options *options, int count, char **word,
                          struct diag *diag)
 {
     const char *ini = options_find_ini(options);
     if (ini)
         options_read_ini(options, ini, NULL, diag);
-    if (count > 1 && strcmp(word[1], "measure") == 0)
-        diag_error(diag, BRUME_ERR_USAGE, "measure: not supported yet");
-    else
-        options_read_words(options, count - 1, (const char *const *)(word + 1),
-                           diag);
+    int first = count > 1 && strcmp(word[1], "measure") == 0 ? 2 : 1;
+    if (first == 2)
+        options->action = OPTIONS_MEASURE;
+    if (count > first)
+        options_read_words(options, count - first,
+                           (const char *const *)(word + first), diag);
+    check_measure(options, first == 2, diag);
 }
 
 static enum brume_code start(struct run *run, int count, char **word)

@@ -126,6 +126,20 @@ const char *naming_picture(const struct options *options,
     return path;
 }
 
+const char *naming_beside(const struct options *options, const char *end,
+                          struct arena *arena)
+{
+    const char *extension;
+    const char *stem = names_no_file(options->output)
+                           ? stem_of_scene(options, arena)
+                           : stem_of_output(options, &extension, arena);
+    size_t size = stem ? strlen(stem) + strlen(end) + 1 : 0;
+    char *path = stem ? arena_alloc(arena, size) : NULL;
+    if (path)
+        snprintf(path, size, "%s%s", stem, end);
+    return path;
+}
+
 const char *naming_folder(const struct options *options, struct arena *arena)
 {
     struct frames still = {.animation = false};

@@ -16,6 +16,11 @@ const char *naming_picture(const struct options *options,
                            const struct frames *frames, int number,
                            struct arena *arena);
 
+/* A file beside a still's picture: its name without an extension, with `end`
+ * behind it. In the arena; NULL: no memory. */
+const char *naming_beside(const struct options *options, const char *end,
+                          struct arena *arena);
+
 /* The folder of the pictures, "." for the working one; NULL: no memory. */
 const char *naming_folder(const struct options *options, struct arena *arena);
 

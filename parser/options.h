@@ -18,6 +18,7 @@
 enum options_action {
     OPTIONS_RENDER, OPTIONS_CHECK, OPTIONS_CHECK_JSON,
     OPTIONS_EXPLAIN, OPTIONS_EXPLAIN_JSON,
+    OPTIONS_MEASURE,                /* by the word `measure` alone         */
     OPTIONS_HELP, OPTIONS_VERSION
 };
 
@@ -86,6 +87,8 @@ struct options {
     uint64_t iterations, tokens;
     double parse_seconds;
     const char *stats;              /* file of --stats, or NULL            */
+    const char *reference;          /* of measure, or NULL                 */
+    double budget;                  /* ... its seconds, 0: not given       */
 
     bool has_verbose, verbose;      /* +V                                  */
     enum options_progress progress;

@@ -316,6 +316,40 @@ static bool explain(struct reel *reel, const struct parse_result *scene,
     return true;
 }
 
+static bool name_files(struct reel *reel, struct measure *m,
+                       struct brume_error *err)
+{
+    struct options *o = reel->options;
+    if (!o->to_file)
+        return true;
+    m->csv_path = naming_beside(o, ".csv", &reel->arena);
+    m->svg_path = naming_beside(o, ".svg", &reel->arena);
+    m->picture_path = naming_beside(o, "-reference.exr", &reel->arena);
+    if (!m->csv_path || !m->svg_path || !m->picture_path)
+        return brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+    return true;
+}
+
+static bool measure(struct reel *reel, const struct parse_result *scene,
+                    int number, struct brume_error *err)
+{
+    const struct options *o = reel->options;
+    const char *slash = strrchr(o->input, '/');
+    struct measure m = {
+        .scene = slash ? slash + 1 : o->input,
+        .options = render_options(reel, number, scene),
+        .only = o->has_integrator ? (int)o->integrator : -1,
+        .budget = o->budget > 0 ? o->budget : MEASURE_BUDGET,
+        .reference = o->reference,
+    };
+    m.options.error = m.options.seconds = 0;
+    m.options.omit_background = false;
+    if (!name_files(reel, &m, err) || !measure_run(&m, scene->scene, err))
+        return false;
+    reel->events->measured(reel->events->user, &m);
+    return true;
+}
+
 static bool act_on(struct reel *reel, const struct parse_result *scene,
                    struct reel_record *record, struct brume_error *err)
 {
@@ -325,6 +359,8 @@ static bool act_on(struct reel *reel, const struct parse_result *scene,
     case OPTIONS_EXPLAIN:
     case OPTIONS_EXPLAIN_JSON:
         return explain(reel, scene, record->number, err);
+    case OPTIONS_MEASURE:
+        return measure(reel, scene, record->number, err);
     default:
         return true;
     }

@@ -7,6 +7,7 @@
 #include "core/brume.h"
 #include "parser/diag.h"
 #include "parser/frames.h"
+#include "parser/measure.h"
 #include "parser/options.h"
 #include "parser/parse.h"
 
@@ -29,6 +30,7 @@ struct reel_events {
     void (*frame)(void *user, const struct frames *frames, int number);
     void (*planned)(void *user, const struct brume_plan *plan);
     void (*progress)(void *user, const struct brume_progress *progress);
+    void (*measured)(void *user, const struct measure *measure);
     void (*finished)(void *user, const struct reel_record *record);
     bool (*stopped)(void *user);    /* true: end with BRUME_STOPPED        */
     FILE *in, *out;             /* for a scene or a picture called "-"     */
@@ -50,10 +52,10 @@ struct reel {
     int region[4];
 };
 
-/* Does what options->action asks for: checks, explains (the first frame) or
- * renders. Ends at the first frame that fails; the pictures of those before
- * stay. The code is the program's exit code, and BRUME_OK on success. `reel`
- * is to be released in any case. */
+/* Does what options->action asks for: checks, explains or measures (the first
+ * frame) or renders. Ends at the first frame that fails; the pictures of those
+ * before stay. The code is the program's exit code, and BRUME_OK on success.
+ * `reel` is to be released in any case. */
 enum brume_code reel_run(struct reel *reel, struct options *options,
                          const struct reel_events *events);
 void reel_release(struct reel *reel);

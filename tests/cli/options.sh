@@ -83,9 +83,6 @@ for word in 'integrator photon' 'integrator progressive' 'photons 9' \
     exits 2
     says 'not supported yet'
 done
-brume measure s.pov
-exits 2
-says 'measure: not supported yet'
 
 new_case 'what has no effect is accepted'
 quick s.pov +A0.1 +AM2 +R3 +J -D +P +X +Q9 +MB25 Display_Gamma=sRGB \
