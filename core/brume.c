@@ -88,7 +88,19 @@ bool brume_set_globals(brume_scene *scene, const struct brume_globals *globals,
     return true;
 }
 
-static bool check_sky(const struct brume_sky *sky, struct brume_error *err)
+static bool check_sky_function(const brume_scene *scene, int id,
+                               struct brume_error *err)
+{
+    int parameters, results;
+    return id < 0 ||
+           (brume_function_arity(scene, id, &parameters, &results) &&
+            parameters == 3 && results >= 3) ||
+           brume_fail(err, BRUME_ERR_SCENE,
+                      "a sky needs a function of 3 parameters with 3 results");
+}
+
+static bool check_sky(const brume_scene *scene, const struct brume_sky *sky,
+                      struct brume_error *err)
 {
     if (sky->width < 0 || sky->height < 0 || sky->width > BRUME_MAX_SKY ||
         sky->height > BRUME_MAX_SKY || (sky->width == 0) != (sky->height == 0))
@@ -103,7 +115,8 @@ static bool check_sky(const struct brume_sky *sky, struct brume_error *err)
                               "the sky's radiance is %g at texel %zu",
                               (double)sky->radiance[i], i / 3);
     return check_not_negative(&sky->scale, 1, "the sky's scale", err) &&
-           check_transform(sky->transform, "the sky", err);
+           check_transform(sky->transform, "the sky", err) &&
+           check_sky_function(scene, sky->function, err);
 }
 
 bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
@@ -111,7 +124,7 @@ bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
 {
     float *copy = NULL;
     size_t n = 3 * (size_t)sky->width * (size_t)sky->height;
-    if (!check_sky(sky, err))
+    if (!check_sky(scene, sky, err))
         return false;
     if (n > 0) {
         copy = memory_new(n, sizeof *copy, err);

@@ -73,16 +73,19 @@ BRUME_API bool brume_set_globals(brume_scene *scene,
 /* The sky as a picture around the scene, seen in place of the background and,
  * with globals.environment, a light. Column x of `width` lies at the azimuth
  * 2 pi (x/width - 1/2), counted from +z of the map's space to its +x; row 0 is
- * about +y. `radiance` is copied: 3 floats a texel, finite, >= 0. */
+ * about +y. `radiance` is copied: 3 floats a texel, finite, >= 0. In place of
+ * a picture it may be a function of the world's unit direction, whose first
+ * three results are the radiance (below 0 it counts as 0). */
 struct brume_sky {
     int width, height;          /* 0: none, the background is all          */
     const float *radiance;
     double scale;
     bool interpolate;           /* between texels' centres                 */
     double transform[3][4];     /* map space to world; no shift counts     */
+    int function;               /* from brume_add_function; -1: the picture */
 };
 #define BRUME_MAX_SKY 32768     /* texels on a side */
-#define BRUME_SKY_INIT {0, 0, NULL, 1, true, BRUME_IDENTITY}
+#define BRUME_SKY_INIT {0, 0, NULL, 1, true, BRUME_IDENTITY, -1}
 BRUME_API bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
                              struct brume_error *err);
 

@@ -26,11 +26,9 @@ static bool has_emission(const struct flat *f)
 static bool is_lit(const struct flat *f)
 {
     const flat_scene *v = &f->view;
-    return f->lights_count > 0 ||
-           (v->media_multiple &&
-            (has_emission(f) ||
-             (v->environment &&
-              (f->sky_count > 0 || !rgb_is_black(v->background)))));
+    return f->lights_count > 0 || (v->media_multiple && has_emission(f)) ||
+           (v->environment &&
+            (f->sky_count > 0 || !rgb_is_black(v->background)));
 }
 
 struct stages plan_stages(const struct flat *f)

@@ -156,9 +156,9 @@ static bool prepare_all(const struct prepare *job, const struct assembly *a,
     for (size_t i = 0; i < s->materials_count; i++)
         if (!add_material(job, &s->materials[i], err))
             return false;
-    if (!prepare_lights(job, err) || !prepare_shapes(job, a, err) ||
-        !prepare_grids(job, a, err) || !prepare_media(job, err) ||
-        !prepare_glow(job, err))
+    if (!prepare_lights(job, err) || !prepare_sky(job, err) ||
+        !prepare_shapes(job, a, err) || !prepare_grids(job, a, err) ||
+        !prepare_media(job, err) || !prepare_glow(job, err))
         return false;
     flat_view(f);
     if (!add_eye(f, err))

@@ -18,8 +18,10 @@ struct prepare {
 /* The whole of it; NULL with err set on failure. */
 struct flat *prepare_scene(const struct prepare *job, struct brume_error *err);
 
-/* prepare_lights.c: lights, and the sky as one. */
+/* prepare_lights.c: lights. */
 bool prepare_lights(const struct prepare *job, struct brume_error *err);
+/* prepare_sky.c: the sky, and its texels as lights. */
+bool prepare_sky(const struct prepare *job, struct brume_error *err);
 /* prepare_shapes.c: shapes, triangles, their bounds and the tree. */
 bool prepare_shapes(const struct prepare *job, const struct assembly *a,
                     struct brume_error *err);

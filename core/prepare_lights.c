@@ -1,8 +1,6 @@
-/* Lights, and the sky as one (physics/light.h, physics/sky.h). */
+/* Lights (physics/light.h). */
 #include <math.h>
-#include <stdlib.h>
 #include "core/prepare.h"
-#include "lib/memory.h"
 
 #define PI 3.14159265358979323846
 
@@ -91,7 +89,7 @@ static bool add_light(const struct prepare *job, const struct brume_light *in,
 }
 
 /* Lights are chosen in proportion to their colour; black ones never. */
-static bool add_lights(const struct prepare *job, struct brume_error *err)
+bool prepare_lights(const struct prepare *job, struct brume_error *err)
 {
     const brume_scene *s = job->scene;
     double total = 0.0, sum = 0.0;
@@ -104,139 +102,4 @@ static bool add_lights(const struct prepare *job, struct brume_error *err)
         job->flat->lights[i].cumulative = (float)(sum / total);
     }
     return true;
-}
-
-/* ---- the sky ------------------------------------------------------------ */
-
-static const float *texel(const struct brume_sky *sky, int x, int y)
-{
-    x = (x + sky->width) % sky->width;
-    y = y < 0 ? 0 : y >= sky->height ? sky->height - 1 : y;
-    return sky->radiance + 3 * ((size_t)y * (size_t)sky->width + (size_t)x);
-}
-
-static double luminance(const float *c)
-{
-    return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] +
-           0.0722 * (double)c[2];
-}
-
-/* Interpolated, a texel's area takes part of its neighbours. */
-static double brightness(const struct brume_sky *sky, int x, int y)
-{
-    if (!sky->interpolate)
-        return luminance(texel(sky, x, y));
-    double sum = 0.0;
-    for (int i = 0; i < 9; i++)
-        sum += luminance(texel(sky, x + i % 3 - 1, y + i / 3 - 1));
-    return sum / 9.0;
-}
-
-static double row_angle(const struct brume_sky *sky, int y)
-{
-    double band = PI / sky->height;
-    return 2.0 * PI / sky->width * (cos(y * band) - cos((y + 1) * band));
-}
-
-/* What each texel is chosen for, times its solid angle; the sum of all. */
-static double weigh(const struct brume_sky *sky, double *weight)
-{
-    double mean = 0.0, sum = 0.0;
-    for (int y = 0; y < sky->height; y++)
-        for (int x = 0; x < sky->width; x++)
-            mean += luminance(texel(sky, x, y)) * row_angle(sky, y);
-    mean /= 4.0 * PI;
-    for (int y = 0; y < sky->height; y++)
-        for (int x = 0; x < sky->width; x++) {
-            double above = brightness(sky, x, y) - mean;
-            *weight = above > 1e-6 * mean ? above * row_angle(sky, y) : 0.0;
-            sum += *weight++;
-        }
-    return sum;
-}
-
-/* Vose's alias table: each light column is filled up by a heavy one. `list`
- * holds the light columns from below, the heavy ones from above. */
-static void make_aliases(sky_texel *t, double *share, uint32_t *list,
-                         uint32_t n)
-{
-    uint32_t light = 0, heavy = n;
-    for (uint32_t i = 0; i < n; i++) {
-        t[i].keep = 1.0f;
-        t[i].alias = i;
-        if (share[i] < 1.0)
-            list[light++] = i;
-        else
-            list[--heavy] = i;
-    }
-    while (light > 0 && heavy < n) {
-        uint32_t i = list[--light], j = list[heavy];
-        t[i].keep = (float)share[i];
-        t[i].alias = j;
-        share[j] -= 1.0 - share[i];
-        if (share[j] < 1.0) {
-            heavy++;
-            list[light++] = j;
-        }
-    }
-}
-
-static bool choose_texels(const struct brume_sky *sky, flat_sky *out,
-                          sky_texel *t, struct brume_error *err)
-{
-    size_t n = (size_t)sky->width * (size_t)sky->height;
-    double *weight = memory_new(n, sizeof *weight, err);
-    uint32_t *list = memory_new(n, sizeof *list, err);
-    if (weight && list) {
-        double sum = weigh(sky, weight);
-        out->lights = sum > 0.0;
-        for (size_t i = 0; sum > 0.0 && i < n; i++) {
-            weight[i] /= sum;
-            t[i].density = (float)(weight[i] /
-                                   row_angle(sky, (int)i / sky->width));
-            weight[i] *= (double)n;
-        }
-        if (sum > 0.0)
-            make_aliases(t, weight, list, (uint32_t)n);
-    }
-    free(weight);
-    free(list);
-    return weight && list;
-}
-
-static void set_directions(const struct brume_sky *sky, flat_sky *out)
-{
-    matrix from = matrix_from(sky->transform), to;
-    matrix_invert(&from, &to);
-    out->from_map = matrix_affine(&from);
-    out->to_map = matrix_affine(&to);
-    out->jacobian = (float)fabs(matrix_determinant(&to));
-}
-
-static bool add_sky(const struct prepare *job, struct brume_error *err)
-{
-    struct flat *f = job->flat;
-    const struct brume_sky *sky = &job->scene->sky;
-    size_t n = (size_t)sky->width * (size_t)sky->height;
-    if (n == 0)
-        return true;
-    flat_sky *out = FLAT_EXTEND(f, sky, 1, err);
-    sky_texel *t = FLAT_EXTEND(f, sky_texels, n, err);
-    if (!out || !t)
-        return false;
-    out->width = sky->width;
-    out->height = sky->height;
-    out->smooth = sky->interpolate;
-    set_directions(sky, out);
-    for (size_t i = 0; i < n; i++)
-        t[i].radiance = rgb_make(
-            (float)(sky->radiance[3 * i] * sky->scale),
-            (float)(sky->radiance[3 * i + 1] * sky->scale),
-            (float)(sky->radiance[3 * i + 2] * sky->scale));
-    return choose_texels(sky, out, t, err);
-}
-
-bool prepare_lights(const struct prepare *job, struct brume_error *err)
-{
-    return add_lights(job, err) && add_sky(job, err);
 }

@@ -188,14 +188,14 @@ static bool add_nodes(struct flat *f, const struct assembly *a,
     return true;
 }
 
-/* The scene's functions go along where an isosurface or a pigment asks for
- * their values. */
+/* The scene's functions go along where an isosurface, a pigment or the sky
+ * asks for their values. */
 static bool add_functions(const struct prepare *job, const struct assembly *a,
                           struct brume_error *err)
 {
     const brume_scene *s = job->scene;
     struct flat *f = job->flat;
-    bool needed = false;
+    bool needed = s->sky.function >= 0;
     for (size_t i = 0; i < a->parts_count; i++)
         needed = needed || a->parts[i].leaf.kind == SOLID_ISOSURFACE;
     for (size_t i = 0; i < s->materials_count; i++)

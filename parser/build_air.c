@@ -1,5 +1,4 @@
-/* build_air.c - what is around a scene: background, fog, rainbow and
- * sky_sphere. */
+/* build_air.c - what is around a scene: background, fog and rainbow. */
 #include <string.h>
 
 #include "parser/builder.h"
@@ -146,70 +145,3 @@ const struct statement build_statement_rainbow = {
     .apply = apply_rainbow,
     .move = move_rainbow,
 };
-
-/* ---- sky_sphere -------------------------------------------------------- */
-
-enum { SKY_LAYERS = 8 };
-
-static void open_sky(struct parser *parser, struct frame *frame)
-{
-    struct sky_sphere *sky = frame->node;
-
-    (void)parser;
-    sky->by = transform_identity();
-    for (int i = 0; i < 3; i++)
-        sky->emission[i] = 1;
-}
-
-static void apply_sky(struct parser *parser, struct frame *frame,
-                      const struct value *value, struct location at)
-{
-    struct sky_sphere *sky = frame->node;
-    struct pigment *kept;
-
-    if (value->kind == VALUE_SKY_SPHERE) {
-        *sky = *(const struct sky_sphere *)value->node;
-        return;
-    }
-    if (sky->pigments == SKY_LAYERS) {
-        parser_mistake(parser, at, "a sky_sphere has at most %d pigments",
-                       SKY_LAYERS);
-        return;
-    }
-    kept = parser_alloc(parser, sizeof *kept);
-    if (!kept)
-        return;
-    *kept = *(const struct pigment *)value->node;
-    sky->pigment[sky->pigments++] = kept;
-}
-
-static void move_sky(struct parser *parser, struct frame *frame,
-                     const transform *by)
-{
-    struct sky_sphere *sky = frame->node;
-
-    (void)parser;
-    sky->by = transform_then(&sky->by, by);
-}
-
-static const struct param sky_params[] = {
-    PARAM_ANY("emission", PARAM_RGB, 1, 0, struct sky_sphere, emission), {0}};
-
-const struct statement build_statement_sky_sphere = {
-    .word = "sky_sphere",
-    .makes = VALUE_SKY_SPHERE,
-    .takes = BUILD_TAKES(VALUE_SKY_SPHERE) | BUILD_TAKES(VALUE_PIGMENT),
-    .size = sizeof(struct sky_sphere),
-    .params = sky_params,
-    .open = open_sky,
-    .apply = apply_sky,
-    .move = move_sky,
-};
-
-bool build_finish_sky(struct parser *parser, struct brume_error *err)
-{
-    (void)err;
-    if (parser->builder->sky)
-        build_lacks(parser, "sky_sphere", (struct location){0, UINT32_MAX});
-    return true;
-}

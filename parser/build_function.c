@@ -711,6 +711,15 @@ int build_texture_function(struct parser *parser, const struct texture *texture)
     return make_all(&writer, &key);
 }
 
+int build_pigment_function(struct parser *parser, const struct pigment *pigment)
+{
+    struct brume_error err = {0};
+    struct writer writer = {.parser = parser, .err = &err};
+    struct field_key key = pigment_key(pigment);
+
+    return make_all(&writer, &key);
+}
+
 int build_density_function(struct parser *parser, const struct density *density)
 {
     struct brume_error err = {0};

@@ -407,6 +407,8 @@ int build_density_function(struct parser *parser,
  * with 5 results. -1: core cannot do it. */
 int build_texture_function(struct parser *parser,
                            const struct texture *texture);
+int build_pigment_function(struct parser *parser,
+                           const struct pigment *pigment);
 
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,

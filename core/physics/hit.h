@@ -2,7 +2,7 @@
 #ifndef CORE_PHYSICS_HIT_H
 #define CORE_PHYSICS_HIT_H
 #include "core/physics/bvh.h"
-#include "core/physics/machine.h"
+#include "core/physics/scene_machine.h"
 #include "core/physics/surface.h"
 
 typedef struct {
@@ -88,13 +88,9 @@ HD_APART hit_color hit_pattern(const flat_scene *s, const flat_material *m,
                                vec3 p)
 {
     float r[MACHINE_REGISTERS];
-    machine code;
+    machine code = scene_machine(s);
     hit_color out;
     vec3 q = affine_point(&m->to_pattern, p);
-    code.code = s->code;
-    code.functions = s->functions;
-    code.pool = s->pool;
-    code.grids = s;
     r[0] = q.x;
     r[1] = q.y;
     r[2] = q.z;

@@ -3,19 +3,14 @@
  * scene. Closed by their containers. */
 #ifndef CORE_PHYSICS_ISOSURFACE_H
 #define CORE_PHYSICS_ISOSURFACE_H
-#include "core/physics/machine.h"
-#include "core/physics/scene.h"
+#include "core/physics/scene_machine.h"
 #include "core/physics/solid_isosurface.h"
 
 HD_APART double isosurface_value(const flat_scene *s, const double *data,
                                  dvec3 p)
 {
     real registers[MACHINE_REGISTERS];
-    machine m;
-    m.code = s->code;
-    m.functions = s->functions;
-    m.pool = REAL_CHOOSE(s->exact_pool, s->pool);
-    m.grids = REAL_CHOOSE(s->host_grids, s);
+    machine m = scene_machine(s);
     registers[0] = (real)p.x;
     registers[1] = (real)p.y;
     registers[2] = (real)p.z;

@@ -529,6 +529,36 @@ HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / (chosen + pdf)));
 }
 
+/* A direction in proportion to how a diffuse surface or a medium scatters. */
+HD vec3 path_bounce_choose(const path_vertex *v, rng *r)
+{
+    float u = rng_float(r), w = rng_float(r), pdf;
+    if (v->medium)
+        return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, &pdf);
+    return warp_frame_to_world(warp_frame(v->surface->ns),
+                               warp_cosine_hemisphere(u, w));
+}
+
+/* All light of the sky at a vertex from which no path goes on to find it. */
+HD void path_sky_alone(const flat_scene *s, path_state *p,
+                       const path_vertex *v)
+{
+    if (!s->environment)
+        return;
+    path_sky(s, p, v);
+    vec3 wi = path_bounce_choose(v, &p->random);
+    float pdf;
+    rgb value = rgb_mul(path_bounce_eval(v, wi, &pdf), sky_radiance(s, wi));
+    if (!(pdf > 0.0f) || !path_faces(v, wi) || rgb_is_black(value))
+        return;
+    container_set set = p->inside;
+    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi,
+                                    s->far, &p->random, p->count);
+    if (sky_is_light(s))
+        pdf += sky_pdf(s, wi);
+    path_add(p, rgb_scale(rgb_mul(p->beta, rgb_mul(value, left)), 1.0f / pdf));
+}
+
 /* The sky at the end of a path. */
 HD void path_escape(const flat_scene *s, path_state *p)
 {
@@ -643,8 +673,10 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
     v.surface = 0;
     v.event = event;
     path_light(s, p, &v);
-    if (!s->media_multiple)
+    if (!s->media_multiple) {
+        path_sky_alone(s, p, &v);
         return false;
+    }
     path_glow(s, p, &v);
     path_sky(s, p, &v);
     float pdf, u = rng_float(&p->random);
@@ -657,10 +689,8 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
 /* Diffuse bounce off a surface. */
 HD bool path_bounce(path_state *p, const path_vertex *v)
 {
-    float u = rng_float(&p->random), pdf;
-    vec3 d = warp_frame_to_world(warp_frame(v->surface->ns),
-                                 warp_cosine_hemisphere(u,
-                                     rng_float(&p->random)));
+    float pdf;
+    vec3 d = path_bounce_choose(v, &p->random);
     if (!path_faces(v, d))
         return false;
     rgb value = path_bounce_eval(v, d, &pdf);
@@ -706,8 +736,10 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
             path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,
                                                       at.opacity)));
             path_light(s, p, &v);
-            if (!s->surfaces_indirect)
+            if (!s->surfaces_indirect) {
+                path_sky_alone(s, p, &v);
                 return false;
+            }
             path_glow(s, p, &v);
             path_sky(s, p, &v);
             return path_bounce(p, &v);

@@ -185,6 +185,8 @@ typedef struct {
     affine to_map, from_map;    /* rotations and scales of directions      */
     float jacobian;         /* |determinant| of to_map                     */
     int32_t lights;         /* some texel is to be chosen                  */
+    int32_t function;       /* of the world's unit direction: the radiance,
+                               not the texels'; or -1                      */
 } flat_sky;
 
 /* One texel of it. Its alias [Walker 1977; Vose 1991] is taken instead with

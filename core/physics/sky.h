@@ -1,5 +1,5 @@
 /* sky.h - what is seen and comes from beyond the scene: the background, or a
- * picture around it, which is also a light.
+ * picture or a function around it, which is also a light.
  *
  * A texel is chosen in proportion to what it has above the mean, so that an
  * even sky costs nothing: there a path's own directions do as well (MIS
@@ -7,7 +7,7 @@
 #ifndef CORE_PHYSICS_SKY_H
 #define CORE_PHYSICS_SKY_H
 #include "core/physics/rng.h"
-#include "core/physics/scene.h"
+#include "core/physics/scene_machine.h"
 #include "core/physics/warp.h"
 
 /* Column and row, in texels, of a direction of map space. */
@@ -33,6 +33,20 @@ HD rgb sky_lerp(rgb a, rgb b, float t)
     return rgb_add(rgb_scale(a, 1.0f - t), rgb_scale(b, t));
 }
 
+/* Of a function: what it is asked for, not its texels. */
+HD_APART rgb sky_function(const flat_scene *s, vec3 d)
+{
+    float r[MACHINE_REGISTERS];
+    machine code = scene_machine(s);
+    r[0] = d.x;
+    r[1] = d.y;
+    r[2] = d.z;
+    bool known = machine_run(&code, s->sky->function, r);
+    for (int i = 0; i < 3; i++)
+        r[i] = known && r[i] > 0.0f && r[i] < 1e30f ? r[i] : 0.0f;
+    return rgb_make(r[0], r[1], r[2]);
+}
+
 /* Radiance that comes along -d; d of unit length. */
 HD rgb sky_radiance(const flat_scene *s, vec3 d)
 {
@@ -40,6 +54,8 @@ HD rgb sky_radiance(const flat_scene *s, vec3 d)
         return s->background;
     const flat_sky *k = s->sky;
     float x, y;
+    if (k->function >= 0)
+        return sky_function(s, d);
     sky_place(k, affine_vector(&k->to_map, d), &x, &y);
     if (!k->smooth)
         return sky_texel_at(s, hd_floor(x), hd_floor(y))->radiance;

@@ -38,6 +38,7 @@ struct brume_scene {
     struct fake_lists list[FAKE_ROOM];      /* of the shapes */
     struct brume_camera camera;
     struct brume_globals globals;
+    struct brume_sky sky;
     int cameras, global_settings, atmosphere;
     struct brume_light light[FAKE_ROOM];
     struct brume_material material[FAKE_ROOM];
@@ -103,6 +104,15 @@ bool brume_set_globals(brume_scene *scene,
         return false;
     scene->globals = *globals;
     scene->global_settings++;
+    return true;
+}
+
+bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
+                   struct brume_error *err)
+{
+    if (fake_refuses(scene, "sky", err))
+        return false;
+    scene->sky = *sky;
     return true;
 }
 
