@@ -510,6 +510,12 @@ BRUME_API bool brume_eval_function(const brume_scene *scene, int id,
                                    double out[BRUME_MAX_RESULTS],
                                    struct brume_error *err);
 
+/* The turbulence of a point, as the language's vturbulence has it: octaves of
+ * vector noise, 1 to 10 of them (others count as those), each lambda times as
+ * fine and omega times as strong as the one before. */
+BRUME_API void brume_turbulence(const double point[3], double octaves,
+                                double lambda, double omega, double out[3]);
+
 /* Pigments, patterns and densities are functions of a point too: of one
  * value, or of five, red, green, blue, filter, transmit. A pattern under a
  * transform, with its map, is written so:

@@ -300,3 +300,15 @@ bool brume_function_average(struct brume_function *function,
     done = done && function_emit(f, MACHINE_COPY, at, sum, 0, map->terms, err);
     return function_give(f, done, map->terms, err);
 }
+
+void brume_turbulence(const double point[3], double octaves, double lambda,
+                      double omega, double out[3])
+{
+    const double series[3] = {octaves, lambda, omega};
+    dvec3 t = noise_vector_turbulence(real3_make(point[0], point[1], point[2]),
+                                      noise_series_of(series));
+
+    out[0] = t.x;
+    out[1] = t.y;
+    out[2] = t.z;
+}

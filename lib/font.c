@@ -107,6 +107,14 @@ static int cubic_to(const FT_Vector *first, const FT_Vector *second,
     return put_cubic(p, a, b, end);
 }
 
+/* A blank has its place all the same: it counts in the extent of a text. */
+static bool put_point(struct pen *p)
+{
+    p->at[0] = p->x;
+    p->at[1] = p->y;
+    return put_cubic(p, p->at, p->at, p->at) == 0;
+}
+
 /* Adds the outline of the face's glyph, and moves on by its advance. */
 static bool put_glyph(struct pen *p, FT_Face face)
 {
@@ -118,8 +126,8 @@ static bool put_glyph(struct pen *p, FT_Face face)
         FT_Outline_Decompose(&face->glyph->outline, &funcs, p) != 0 ||
         put_line(p, p->start) != 0)
         return false;
-    if (p->numbers[p->glyph] == 0.0)
-        p->count = p->glyph;
+    if (p->numbers[p->glyph] == 0.0 && !put_point(p))
+        return false;
     p->x += p->scale * (double)face->glyph->metrics.horiAdvance;
     return true;
 }
@@ -200,7 +208,9 @@ bool font_outline(const char *path, const char *text, const double offset[2],
     struct pen pen = {.err = err};
     if (FT_Init_FreeType(&library) != 0)
         return brume_fail(err, BRUME_ERR_MEMORY, "FreeType does not start");
-    bool good = with_library(library, path, text, offset, &pen);
+    const double none = 0.0;
+    bool good = with_library(library, path, text, offset, &pen) &&
+                (pen.count > 0 || (put(&pen, &none, 1) && put_point(&pen)));
     FT_Done_FreeType(library);
     if (!good) {
         free(pen.numbers);

@@ -6,8 +6,9 @@
 #include "lib/error.h"
 
 /* A line of text as the outlines of its glyphs, in units of the font's em,
- * the left edge of the first at 0: for each glyph that has an outline the
- * number of its segments, then the four x and y of each, a cubic Bezier curve.
+ * the left edge of the first at 0: for each glyph the number of
+ * its segments, then the four x and y of each, a cubic Bezier curve; of a blank
+ * its place, as of a text without glyphs.
  * Each glyph comes after the one before by its advance, kerned, and by
  * `offset` (x, y) more. `text` is UTF-8; what is not is taken as Latin-1. The
  * numbers are freed with free(). False with err set on failure. */

@@ -619,13 +619,15 @@ void build_argument(struct parser *parser, const struct value *value,
 /* ---- values ------------------------------------------------------------- */
 
 void build_called(struct parser *parser, const struct name *word, int count,
-                  struct location at)
+                  const struct value *more, struct location at)
 {
     const struct value *value = eval_pop(parser, count);
 
     build_word(parser, word, at);
     for (int i = 0; i < count && !parser->failed; i++)
         build_argument(parser, &value[i], at);
+    if (more && !parser->failed)
+        build_argument(parser, more, at);
 }
 
 /* Values that a statement around copies; it refers to others. */

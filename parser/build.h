@@ -49,9 +49,10 @@ void build_argument(struct parser *parser, const struct value *value,
 /* A word: of a parameter, of what is chosen for one, of a map. */
 void build_word(struct parser *parser, const struct name *word,
                 struct location at);
-/* A word with the `count` values pushed last, in parentheses. */
+/* A word with the `count` values pushed last, in parentheses, and one behind
+ * a colon, or NULL. */
 void build_called(struct parser *parser, const struct name *word, int count,
-                  struct location at);
+                  const struct value *more, struct location at);
 /* A value that an inner statement made, or that an identifier stands for. */
 void build_apply(struct parser *parser, const struct value *value,
                  struct location at);

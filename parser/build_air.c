@@ -13,8 +13,25 @@ static void open_background(struct parser *parser, struct frame *frame)
     frame->node = &parser->builder->globals;
 }
 
+static const struct param background_params[] = {PARAM_OWN("exr", 1, 1, 0),
+                                                 {0}};
+
+static void background_values(struct parser *parser, struct frame *frame,
+                              const struct param *row,
+                              const struct value *value, int count,
+                              struct location at)
+{
+    (void)value;
+    (void)count;
+    frame->arguments = 1;
+    parser_mistake(parser, at, "'%s' in a background is not supported yet",
+                   row->word);
+}
+
 const struct statement build_statement_background = {
     .word = "background",
+    .params = background_params,
+    .values = background_values,
     .arguments = background_arguments,
     .needed = 1,
     .open = open_background,

@@ -145,6 +145,7 @@ void build_shape_open(struct parser *parser, struct frame *frame)
         [BUILD_CUBIC] = BRUME_SHAPE_POLY,
         [BUILD_QUARTIC] = BRUME_SHAPE_POLY,
         [BUILD_POLY] = BRUME_SHAPE_POLY,
+        [BUILD_POLYNOMIAL] = BRUME_SHAPE_POLY,
         [BUILD_SUPERELLIPSOID] = BRUME_SHAPE_SUPERELLIPSOID,
         [BUILD_JULIA_FRACTAL] = BRUME_SHAPE_JULIA,
         [BUILD_LATHE] = BRUME_SHAPE_LATHE,

@@ -84,6 +84,17 @@ static void poly_terms(struct parser *parser, struct frame *frame,
     add_terms(parser, value, coefficients(order), object->word, at);
 }
 
+static void take_order(struct parser *parser, struct object *object,
+                       const struct value *value, struct location at)
+{
+    if (value->kind != VALUE_NUMBER || value->terms != 1 ||
+        !(value->v[0] >= 2 && value->v[0] <= POLY_MOST))
+        parser_error(parser, at, "the order of a %s is from 2 to %d",
+                     object->word, POLY_MOST);
+    else
+        object->shape.order = (int)value->v[0];
+}
+
 static void poly_argument(struct parser *parser, struct frame *frame,
                           const struct value *value, struct location at)
 {
@@ -97,12 +108,8 @@ static void poly_argument(struct parser *parser, struct frame *frame,
     else if (fixed || frame->arguments == 1)
         poly_terms(parser, frame, value, fixed ? fixed : object->shape.order,
                    at);
-    else if (value->kind != VALUE_NUMBER || value->terms != 1 ||
-             !(value->v[0] >= 2 && value->v[0] <= POLY_MOST))
-        parser_error(parser, at, "the order of a poly is from 2 to %d",
-                     POLY_MOST);
     else
-        object->shape.order = (int)value->v[0];
+        take_order(parser, object, value, at);
 }
 
 static const struct param poly_rows[] = {
@@ -110,6 +117,84 @@ static const struct param poly_rows[] = {
 SOLID_STATEMENT(cubic, 1, poly_rows + 1, poly_argument, close_numbers);
 SOLID_STATEMENT(quartic, 1, poly_rows + 1, poly_argument, close_numbers);
 SOLID_STATEMENT(poly, 2, poly_rows, poly_argument, close_numbers);
+
+/* `polynomial { order, xyz(a, b, c): number ... }`: all that is not named is
+ * zero, and of what is named twice the last counts. */
+static void polynomial_argument(struct parser *parser, struct frame *frame,
+                                const struct value *value, struct location at)
+{
+    struct object *object = frame->node;
+
+    if (frame->arguments > 0) {
+        parser_mistake(parser, at, "'polynomial' takes no more numbers");
+        return;
+    }
+    take_order(parser, object, value, at);
+    for (int i = 0; i < coefficients(object->shape.order); i++)
+        if (!build_number(parser, 0, at))
+            return;
+}
+
+/* Where poly has the coefficient: powers of x fall, then those of y, then
+ * those of z. */
+static int place_of(int order, int x, int y, int z)
+{
+    int rest = order - x, last = rest - y;
+
+    return rest * (rest + 1) * (rest + 2) / 6 + last * (last + 1) / 2 + last -
+           z;
+}
+
+static void polynomial_values(struct parser *parser, struct frame *frame,
+                              const struct param *row,
+                              const struct value *value, int count,
+                              struct location at)
+{
+    const struct object *object = frame->node;
+    struct builder *builder = parser->builder;
+    int order = object->shape.order, sum = 0;
+
+    for (int i = 0; i < count; i++) {
+        double x = value[i].v[0];
+        if (frame->arguments == 0 || value[i].kind != VALUE_NUMBER ||
+            value[i].terms != 1 || (i < 3 && !(x > -1 && x < order + 1))) {
+            parser_mistake(parser, at,
+                           "behind the order '%s' has three powers from 0 to "
+                           "it, and a float",
+                           row->word);
+            return;
+        }
+        sum += i < 3 ? (int)x : 0;
+    }
+    if (sum > order) {
+        parser_mistake(parser, at, "this term is of order %d, not of %d", sum,
+                       order);
+        return;
+    }
+    int place = place_of(order, (int)value[0].v[0], (int)value[1].v[0],
+                         (int)value[2].v[0]);
+    builder->number[frame->mark + (size_t)place] = value[3].v[0];
+}
+
+static const struct param polynomial_params[] = {
+    BUILD_OBJECT_ROWS, PARAM_OWN("xyz", 4, 4, 0), {0}};
+
+const struct statement build_statement_polynomial = {
+    .word = "polynomial",
+    .makes = VALUE_OBJECT,
+    .takes = BUILD_TAKES_WORN,
+    .size = sizeof(struct object),
+    .params = polynomial_params,
+    .arguments = poly_rows,
+    .needed = 1,
+    .open = build_shape_open,
+    .argument = polynomial_argument,
+    .values = polynomial_values,
+    .apply = build_object_apply,
+    .move = build_object_move,
+    .close = close_numbers,
+    .set = build_object_set,
+};
 
 /* ---- superellipsoid ---------------------------------------------------- */
 

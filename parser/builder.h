@@ -16,7 +16,8 @@
     X(PLANE, plane) X(DISC, disc) X(MESH, mesh) X(MESH2, mesh2)               \
     X(TORUS, torus) X(OVUS, ovus) X(TEXT, text)                         \
     X(QUADRIC, quadric) X(CUBIC, cubic) X(QUARTIC, quartic)                   \
-    X(POLY, poly) X(SUPERELLIPSOID, superellipsoid)                           \
+    X(POLY, poly) X(POLYNOMIAL, polynomial)                                   \
+    X(SUPERELLIPSOID, superellipsoid)                                         \
     X(JULIA_FRACTAL, julia_fractal)                                           \
     X(LATHE, lathe) X(PRISM, prism) X(SOR, sor)                               \
     X(SPHERE_SWEEP, sphere_sweep) X(POLYGON, polygon)                         \

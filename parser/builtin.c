@@ -322,6 +322,15 @@ static struct value run_vaxis_rotate(struct call *call)
     return v;
 }
 
+static struct value run_vturbulence(struct call *call)
+{
+    double v[3];
+
+    brume_turbulence(call->argument[3].v, argument(call, 2), argument(call, 0),
+                     argument(call, 1), v);
+    return value_vector(3, v);
+}
+
 /* ---- strings ----------------------------------------------------------- */
 
 static struct value copy_string(struct call *call, const char *text,
@@ -585,7 +594,8 @@ static const struct builtin table[] = {
     {"vlength", "v", 1, 1, NULL, run_vlength},
     {"vnormalize", "v", 1, 1, NULL, run_vnormalize},
     {"vrotate", "v", 2, 2, NULL, run_vrotate},
-    {"vstr", "fnsff", 5, 5, NULL, run_vstr}};
+    {"vstr", "fnsff", 5, 5, NULL, run_vstr},
+    {"vturbulence", "fffv", 4, 4, NULL, run_vturbulence}};
 
 static int by_word(const void *word, const void *row)
 {

@@ -175,6 +175,8 @@ struct name *expand_need_name(struct expander *expander);
 /* The stack `items` with room for `need` of them; NULL: an error. */
 void *expand_grow(struct expander *expander, void *items, size_t *room,
                   size_t need, size_t size);
+/* Leaves scopes of names that are not of the innermost text or call. */
+void expand_leave_names(struct expander *expander);
 bool expand_enter(struct expander *expander, const struct frame *frame);
 /* Leaves the text or body that is being read, and its scope of names. */
 void expand_leave(struct expander *expander);

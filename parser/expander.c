@@ -53,6 +53,18 @@ void expand_leave(struct expander *expander)
     while (expander->parser->symbols.level >= frame->level) {
         symbols_leave(&expander->parser->symbols);
     }
+    if (expander->frames > 0 && !expander->parser->formula) {
+        expand_leave_names(expander);
+    }
+}
+
+/* Functions that were given up leave theirs. */
+void expand_leave_names(struct expander *expander)
+{
+    struct symbols *symbols = &expander->parser->symbols;
+    while (symbols->level > expand_frame(expander)->level) {
+        symbols_leave(symbols);
+    }
 }
 
 bool expand_return(struct expander *expander, size_t frames, struct location at)

@@ -38,6 +38,7 @@ struct formula_scope {
     int names;
     bool declared;        /* its names were given: else x, y, z      */
     bool open, suspended; /* the names are in force; were in force   */
+    uint32_t level;       /* of the scope of its names               */
     int series;           /* sums that are open                      */
     struct function *made;
     int columns, rows;
@@ -550,6 +551,7 @@ void formula_open(struct parser *parser)
         return;
     }
     scope->open = true;
+    scope->level = parser->symbols.level;
     for (int i = 0; i < scope->names; i++)
         stand_for(parser, scope->name[i], FORMULA_PARAMETER, i);
     if (scope->declared)
@@ -561,13 +563,21 @@ void formula_open(struct parser *parser)
     }
 }
 
+/* A macro that ends inside of the body has taken them with it. */
+static void leave_names(struct parser *parser,
+                        const struct formula_scope *scope)
+{
+    while (parser->symbols.level >= scope->level)
+        symbols_leave(&parser->symbols);
+}
+
 void formula_suspend(struct parser *parser)
 {
     struct formula_scope *scope = parser->formula;
 
     if (!scope || !scope->open)
         return;
-    symbols_leave(&parser->symbols);
+    leave_names(parser, scope);
     scope->open = false;
     scope->suspended = true;
 }
@@ -579,7 +589,7 @@ struct value formula_close(struct parser *parser)
     if (!scope)
         return (struct value){.kind = VALUE_NONE};
     if (scope->open)
-        symbols_leave(&parser->symbols);
+        leave_names(parser, scope);
     parser->formula = scope->around;
     if (!scope->made)
         return (struct value){.kind = VALUE_NONE};
@@ -615,7 +625,8 @@ struct value formula_series_close(struct parser *parser,
 
     if (parser->failed || !parser->formula)
         return value_float(0);
-    symbols_leave(&parser->symbols);
+    if (parser->symbols.level > parser->formula->level)
+        symbols_leave(&parser->symbols);
     parser->formula->series--;
     return make(parser, FORMULA_SERIES,
                 !strcmp(word->text, "sum") ? BRUME_BLOCK_SUM : BRUME_BLOCK_PROD,

@@ -110,7 +110,7 @@ static void scene_yyerror(const struct location *at, struct parser *parser,
 
 /* Every word of a statement: what it may hold, and where, is in the builder's
  * tables. */
-%token <name> WORD "keyword" CALLED "'pwr'" TEXTURE "'texture'"
+%token <name> WORD "keyword" CALLED "'pwr' or 'xyz'" TEXTURE "'texture'"
 
 /* An operand ends only where no operator follows: LOW is below them all. */
 %precedence LOW
@@ -509,7 +509,9 @@ content:
   | WORD
         { build_word(parser, $1, @1); }
   | CALLED '(' arguments ')'
-        { build_called(parser, $1, $3, @1); }
+        { build_called(parser, $1, $3, NULL, @1); }
+  | CALLED '(' arguments ')' ':' expr %prec LOW
+        { build_called(parser, $1, $3, &$6, @1); }
   | node
         { build_apply(parser, &$1, @1); }
   | texture

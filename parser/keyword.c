@@ -508,7 +508,7 @@ const struct keyword keyword_table[] = {
     {"volume_photons", TOK_WORD, KEYWORD_EXTENSION},
     {"vrotate", TOK_NUMBER_FUNCTION, KEYWORD_RESERVED},
     {"vstr", TOK_STRING_FUNCTION, KEYWORD_RESERVED},
-    {"vturbulence", TOK_UNSUPPORTED, KEYWORD_RESERVED},
+    {"vturbulence", TOK_NUMBER_FUNCTION, KEYWORD_RESERVED},
     {"warning", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"warp", TOK_WORD, KEYWORD_RESERVED},
     {"water_level", TOK_WORD, KEYWORD_RESERVED},
@@ -518,6 +518,7 @@ const struct keyword keyword_table[] = {
     {"wood", TOK_WORD, KEYWORD_RESERVED},
     {"wrinkles", TOK_WORD, KEYWORD_RESERVED},
     {"write", TOK_UNSUPPORTED, KEYWORD_RESERVED},
+    {"xyz", TOK_CALLED, KEYWORD_RESERVED},
 };
 const int keyword_count = sizeof keyword_table / sizeof *keyword_table;
 

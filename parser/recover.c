@@ -148,6 +148,7 @@ bool recover_after_error(struct expander *expander)
     parser->failed = parser->brace_missing = false;
     parser->stacked = 0;
     formula_reset(parser);
+    expand_leave_names(expander);
     build_reset(parser);
     if (!advance(expander) || !begin_anew(expander))
         return false;

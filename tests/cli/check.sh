@@ -40,6 +40,17 @@ brume s.pov +W8 +H6
 exits 1
 is "$(errors)" '1:18 '
 
+new_case 'the names of a function end with it'
+for body in 'x + ' 'x * * y' 'sum(i, 1, 3, i * ' 'x * <1, 2>'; do
+    echo "#declare F = function { $body }
+        #debug vstr(3, x * 2, \" \", 0, 1)
+        sphere { x, 1 pigment { rgb y } }" >s.pov
+    brume s.pov --check
+    exits 1
+    says '2.0 0.0 0.0'
+    is "$(grep -c error: said)" 1
+done
+
 new_case '#error ends it'
 printf '#error "enough"\nbox { }\n' >s.pov
 brume s.pov --check

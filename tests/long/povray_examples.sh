@@ -10,12 +10,9 @@ theirs=/usr/share/povray-3.7/include
 # Why each is not accepted yet:
 #   benchmark     a function of a pigment whose pattern is not drawn yet
 #   mtmand        a height field from a .pot
-#   vturbulence   the function of that name
 #   slopemt       a pigment from a .jpg
-#   circletext    POV-Ray's Circle_Text: a glyph without outline as a prism
-#   o_shapes      Circle_Text with the font that stands for timrom.ttf
 #   __empty cliche sort   cannot be used with POV-Ray either
-known='/(benchmark|mtmand|vturbulence|slopemt_3[67]|circletext|o_shapes|__empty|cliche|sort)\.(pov|ini)$'
+known='/(benchmark|mtmand|slopemt_3[67]|__empty|cliche|sort)\.(pov|ini)$'
 
 cp -r "$examples" copy
 find copy -name '*.pov' ! -path '*/portfolio/*' >list

@@ -28,6 +28,37 @@ static void quadrics(void **state)
     expect_error("quartic { 5 }", BRUME_ERR_SCENE, 1, 11, "35 terms");
 }
 
+/* The numbers are those of poly's x^2, xy, xz, x, y^2, yz, y, z^2, z and 1. */
+static void polynomials(void **state)
+{
+    (void)state;
+    const brume_scene *s = scene(
+        "polynomial { 2, xyz(2,0,0):1, xyz(0,2,0):2 xyz(0,0,2):3,\n"
+        "  xyz(0,0,0):-4 sturm }\n"
+        "polynomial { 2, xyz(1,1,0):1 xyz(1,0,1):2 xyz(1,0,0):3\n"
+        "  xyz(0,1.9,0):9 xyz(0,1,1):4 xyz(0,1,0):1+4 xyz(0,0,1):6 }\n"
+        "polynomial { 4, xyz(4,0,0):1, xyz(2,2,0):2, xyz(2,0,2):2,\n"
+        "  xyz(2,0,0):-104, xyz(0,4,0):1, xyz(0,2,2):2, xyz(0,2,0):56,\n"
+        "  xyz(0,0,4):1, xyz(0,0,2):-104, xyz(0,0,0):784 }\n"
+        "polynomial { 2, xyz(2,0,0):1, xyz(2,0,0):7 scale 2 }\n");
+    assert_int_equal(s->shape[0].kind, BRUME_SHAPE_POLY);
+    assert_int_equal(s->shape[0].order, 2);
+    assert_int_equal(s->shape[0].count, 10);
+    NUMBERS(s->list[0].data, 1, 0, 0, 0, 2, 0, 0, 3, 0, -4);
+    NUMBERS(s->list[1].data, 0, 1, 2, 3, 0, 4, 5, 0, 6, 0);
+    /* The torus of the manual, 3.4.5.3.2. */
+    NUMBERS(s->list[2].data, 1, 0, 0, 0, 2, 0, 0, 2, 0, -104, 0, 0, 0, 0, 0, 0,
+            0, 0, 0, 0, 1, 0, 0, 2, 0, 56, 0, 0, 0, 0, 1, 0, -104, 0, 784);
+    NUMBERS(s->list[3].data, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+    expect_error("polynomial { 2, xyz(2,1,0):1 }", BRUME_ERR_SCENE, 1, 17,
+                 "order 3, not of 2");
+    expect_error("polynomial { 2, xyz(-1,0,0):1 }", BRUME_ERR_SCENE, 1, 17,
+                 "three powers");
+    expect_error("polynomial { xyz(1,0,0):1 }", BRUME_ERR_SCENE, 1, 14,
+                 "behind the order");
+    expect_error("polynomial { 36 }", BRUME_ERR_SCENE, 1, 14, "2 to 35");
+}
+
 static void fractals(void **state)
 {
     (void)state;
@@ -180,10 +211,15 @@ static void texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts),    cmocka_unit_test(quadrics),
-        cmocka_unit_test(fractals), cmocka_unit_test(curves),
-        cmocka_unit_test(blobs),    cmocka_unit_test(groups),
-        cmocka_unit_test(clips),    cmocka_unit_test(what_pictures_lack),
+        cmocka_unit_test(texts),
+        cmocka_unit_test(quadrics),
+        cmocka_unit_test(polynomials),
+        cmocka_unit_test(fractals),
+        cmocka_unit_test(curves),
+        cmocka_unit_test(blobs),
+        cmocka_unit_test(groups),
+        cmocka_unit_test(clips),
+        cmocka_unit_test(what_pictures_lack),
     };
 
     return cmocka_run_group_tests_name("build_solid", tests, NULL,

@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <string.h>
 #include <cmocka.h>
 #include "tests/unit/solids.h"
 
@@ -113,6 +114,51 @@ static void test_isosurface__gradient(void **state)
     assert_int_equal(w.count, 4);
 }
 
+/* The three numbers of `evaluate`: where the gradient begins and what it never
+ * falls below, how far beyond a steeper slope it goes, and how much of what is
+ * beyond a lesser one it keeps. */
+static void test_isosurface__evaluate(void **state)
+{
+    (void)state;
+    double data[ISOSURFACE_DATA] = {0};
+    const double factors[3] = {1.5, 2, 0.5};
+    isosurface_walk w = {.data = data, .gradient = 1.5};
+
+    data[ISOSURFACE_ADAPTS] = 1;
+    memcpy(data + ISOSURFACE_FACTORS, factors, sizeof factors);
+    isosurface_adapt(&w, 4);
+    assert_true(w.gradient == 8);
+    isosurface_adapt(&w, 4);
+    assert_true(w.gradient == 6);
+    isosurface_adapt(&w, 1);
+    assert_true(w.gradient == 3.5);
+    isosurface_adapt(&w, 0);
+    isosurface_adapt(&w, 0);
+    assert_true(w.gradient == 1.5);
+    data[ISOSURFACE_ADAPTS] = 0;
+    isosurface_adapt(&w, 4);
+    assert_true(w.gradient == 1.5 && w.steepest == 4);
+}
+
+/* What is asked of a walk shows them: a higher least gradient and a greater
+ * excess look closer, forgetting sooner looks less. */
+static void test_isosurface__evaluate_costs(void **state)
+{
+    (void)state;
+    const double factors[4][3] = {
+        {1, 1.5, 0.9}, {3, 1.5, 0.9}, {1, 6, 0.9}, {1, 1.5, 0}};
+    int asked[4];
+
+    for (int i = 0; i < 4; i++) {
+        double torus[15] = {1, 0, -2, -2, -2, 2, 2, 2, 0, 1e-4, 0.01, 0};
+        memcpy(torus + 12, factors[i], sizeof factors[i]);
+        asked[i] = WALK(torus, from_left, along_x, -INFINITY, INFINITY).asked;
+    }
+    assert_true(asked[1] > asked[0]);
+    assert_true(asked[2] > asked[0]);
+    assert_true(asked[3] < asked[0]);
+}
+
 /* A distance has the slope 1 wherever one looks from: with that gradient none
  * of its small balls is lost, with less they are. */
 static void test_isosurface__distance(void **state)
@@ -156,6 +202,8 @@ int main(void)
         cmocka_unit_test(test_isosurface__not_a_number),
         cmocka_unit_test(test_isosurface__endless),
         cmocka_unit_test(test_isosurface__gradient),
+        cmocka_unit_test(test_isosurface__evaluate),
+        cmocka_unit_test(test_isosurface__evaluate_costs),
         cmocka_unit_test(test_isosurface__distance),
         cmocka_unit_test(test_isosurface__part_of_line),
     };

@@ -62,6 +62,7 @@ static const struct words_scene words_scenes[] = {
                         " 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,"
                         " 0, 0, 0, 0, 0, 0, 0, 0, 0, -1>"),
     WORDS_BODY(POLY, "poly { 2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>"),
+    WORDS_BODY(POLYNOMIAL, "polynomial { 2, xyz(2, 0, 0): 1"),
     WORDS_BODY(SUPERELLIPSOID, "superellipsoid { <0.5, 0.5>"),
     WORDS_BODY(JULIA_FRACTAL, "julia_fractal { <0.1, 0.2, 0.3, 0.4>"),
     WORDS_BODY(LATHE, "lathe { 4, <1, 0>, <2, 1>, <1, 2>, <1, 3>"),
@@ -327,6 +328,7 @@ static const struct words_use words_uses[] = {
                 "text { % \"A\" 1, 0 }"),
     WORDS_THERE(TEXT, "internal", "internal 2", "internal 1",
                 "text { % \"A\" 1, 0 }"),
+    WORDS_USE(POLYNOMIAL, "xyz", "xyz(0, 1, 1): 3", NULL),
     WORDS_USE(JULIA_FRACTAL, "quaternion", "hypercomplex quaternion",
               "hypercomplex"),
     WORDS_USE(JULIA_FRACTAL, "sqr", "hypercomplex exp sqr", "hypercomplex exp"),
@@ -537,6 +539,8 @@ static const struct words_use words_uses[] = {
     WORDS_USE(CAMERA, "perspective", "orthographic perspective",
               "orthographic"),
     WORDS_USE(CAMERA, "cylinder", "cylinder 1", NULL),
+    WORDS_TOLD(BACKGROUND, "exr", "exr \"x.exr\"", "background { % }",
+               "not supported yet"),
     WORDS_USE(CAMERA, "sky", "sky x look_at z", "look_at z"),
     WORDS_TOLD(CAMERA, "focal_point", WORDS_BLUR, NULL, "focal blur"),
     WORDS_TOLD(CAMERA, "aperture", WORDS_BLUR, NULL, "focal blur"),
@@ -557,7 +561,6 @@ static const struct words_use words_uses[] = {
               "area_illumination",
               "area_light x, y, 3, 3"),
     WORDS_USE(SPLINE, "linear_spline", "linear_spline", "cubic_spline"),
-    WORDS_TOLD(SKY_SPHERE, "emission", NULL, NULL, "sky_sphere"),
 
     WORDS_USE(GLOBAL_SETTINGS, "srgb", "assumed_gamma srgb", "assumed_gamma 1"),
     WORDS_USE(GLOBAL_SETTINGS, "charset", "charset sys", NULL),
