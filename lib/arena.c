@@ -2,8 +2,35 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef BRUME_FENCE
+#include <sanitizer/asan_interface.h>
+#endif
 
 enum { ALIGNMENT = 16, CHUNK = 64 * 1024 };
+
+/* Under the address sanitizer all that is not handed out is fenced off, and
+ * there is a fence behind each block: running out of one shows. */
+#ifdef BRUME_FENCE
+enum { FENCE = ALIGNMENT };
+static void fence(void *at, size_t size)
+{
+    ASAN_POISON_MEMORY_REGION(at, size);
+}
+static void hand_out(void *at, size_t size)
+{
+    ASAN_UNPOISON_MEMORY_REGION(at, size);
+}
+#else
+enum { FENCE = 0 };
+static void fence(void *at, size_t size)
+{
+    (void)at, (void)size;
+}
+static void hand_out(void *at, size_t size)
+{
+    (void)at, (void)size;
+}
+#endif
 
 struct arena_chunk {
     struct arena_chunk *next;
@@ -47,6 +74,7 @@ static struct arena_chunk *take_chunk(struct arena *arena, size_t size)
     if (chunk) {
         chunk->size = bytes;
         arena->held += bytes;
+        fence((char *)chunk + HEAD, bytes - HEAD);
     }
     return chunk;
 }
@@ -56,7 +84,8 @@ void *arena_alloc(struct arena *arena, size_t size)
     if (size > SIZE_MAX / 2) {
         return NULL;
     }
-    size = ((size ? size : 1) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    size_t used = size;
+    size = ((size ? size : 1) + FENCE + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     if (size > (size_t)(arena->end - arena->at)) {
         struct arena_chunk *chunk = take_chunk(arena, size);
         if (!chunk) {
@@ -66,6 +95,7 @@ void *arena_alloc(struct arena *arena, size_t size)
         if (size > CHUNK / 4 && arena->chunk) {
             chunk->next = arena->chunk->next;
             arena->chunk->next = chunk;
+            hand_out((char *)chunk + HEAD, used);
             return (char *)chunk + HEAD;
         }
         chunk->next = arena->chunk;
@@ -75,6 +105,7 @@ void *arena_alloc(struct arena *arena, size_t size)
     }
     void *block = arena->at;
     arena->at += size;
+    hand_out(block, used);
     return block;
 }
 

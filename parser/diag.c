@@ -217,12 +217,17 @@ size_t diag_distance(const char *a, size_t a_length, const char *b,
     }
     /* Levenshtein 1966, one row of the table at a time. */
     for (size_t i = 1; i <= a_length; i++) {
-        size_t diagonal = row[0];
+        size_t diagonal = row[0], nearest = i;
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
             size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
             diagonal = row[j];
             row[j] = least(replaced, least(row[j], row[j - 1]) + 1);
+            nearest = least(nearest, row[j]);
+        }
+        /* What is below is never nearer. */
+        if (nearest > bound) {
+            return bound + 1;
         }
     }
     return least(row[b_length], bound + 1);
