@@ -56,13 +56,17 @@ static bool open_loop(struct expander *expander, const struct loop *loop)
     return true;
 }
 
-/* Goes on behind the block's #end. */
+/* Goes on behind the block's #end; where there is none, an error told already,
+ * with what comes next. */
 static void leave(struct expander *expander, uint32_t opener)
 {
+    uint32_t end = token_at(expander, opener)->block.pair;
     if (state_of(expander, opener)) {
         expander->loops--;
     }
-    jump(expander, token_at(expander, opener)->block.pair + 1);
+    if (end) {
+        jump(expander, end + 1);
+    }
 }
 
 static bool count_iteration(struct expander *expander, uint32_t opener)

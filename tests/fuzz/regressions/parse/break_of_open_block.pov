@@ -1,0 +1,5 @@
+#if (1)
+  #for (i, 1, 2)
+  #break
+#else
+1
