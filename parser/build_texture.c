@@ -102,17 +102,20 @@ static void pigment_argument(struct parser *parser, struct frame *frame,
 }
 
 /* A part of the same kind: what it begins with, or an item of a list. */
-static bool begin_with(struct parser *parser, struct frame *frame,
+static void begin_with(struct parser *parser, struct frame *frame,
                        const struct value *value, size_t size,
                        struct location at)
 {
     if (build_pattern_lists(frame)) {
         build_pattern_choice(parser, frame, value, at);
-        return true;
+    } else if (frame->given & (FRAME_PATTERN | FRAME_CHOSEN | FRAME_LIST |
+                               FRAME_PLAIN | FRAME_BEGUN)) {
+        parser_mistake(parser, at, "the %s that a %s begins with comes first",
+                       value_name(value), value_name(value));
+    } else {
+        memcpy(frame->node, value->node, size);
+        frame->given |= FRAME_BEGUN;
     }
-    memcpy(frame->node, value->node, size);
-    frame->given &= ~(unsigned)(FRAME_PATTERN | FRAME_LIST | FRAME_PLAIN);
-    return true;
 }
 
 static void apply_pigment(struct parser *parser, struct frame *frame,
@@ -291,6 +294,7 @@ static void apply_texture(struct parser *parser, struct frame *frame,
     if (value->kind == VALUE_TEXTURE) {
         begin_with(parser, frame, value, sizeof *texture, at);
     } else if (set_part(frame->node, value)) {
+        frame->given |= FRAME_BEGUN;
         if (texture->on.map)
             parser_mistake(parser, at,
                            "a texture with a pattern has no %s of "

@@ -149,9 +149,10 @@ BUILD_STATEMENTS(X)
 enum { OBJECT_HOLLOW = 1, OBJECT_NAMED = 2, OBJECT_INVERSE = 4 };
 /* Of statements with patterns: their pattern is their own copy; it was chosen
  * here; they have a list of their own; they have a colour of their own; as an
- * entry of a map they have a position. */
+ * entry of a map they have a position; they began as, or got, a part. */
 enum { FRAME_PATTERN = 1 << 16, FRAME_CHOSEN = 1 << 17, FRAME_LIST = 1 << 18,
-       FRAME_PLAIN = 1 << 19, FRAME_POSITION = 1 << 20 };
+       FRAME_PLAIN = 1 << 19, FRAME_POSITION = 1 << 20,
+       FRAME_BEGUN = 1 << 21 };
 
 /* The modifiers of every object. */
 #define BUILD_OBJECT_ROWS                                                     \

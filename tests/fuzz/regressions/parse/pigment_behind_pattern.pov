@@ -1,0 +1,1 @@
+pigment{julia<2>0pigment{}}
