@@ -48,9 +48,13 @@ PACKAGES := OpenEXR libpng jansson freetype2 zlib blosc
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE
 C       += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
-# Debian has no .pc file for OpenVDB.
-OTHER_LIBS := -lopenvdb -ltbb -lstdc++ -lm -pthread
+OTHER_LIBS := -lm -pthread
 LIBS     = $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
+# What lib/vdb_module.cc uses; Debian has no .pc file for OpenVDB.
+VDB_LIBS := -lopenvdb -ltbb
+# The folders in which a program finds that module: an RPATH, as a RUNPATH does
+# not hold where the sanitizer calls dlopen for it.
+rpath    = -Wl,--disable-new-dtags,-rpath,'$1'
 
 # $(call run,VERB,COMMAND): the command, shown as a short line unless V=1.
 define run
@@ -62,7 +66,9 @@ endef
 
 objects  = $(patsubst %,$(B)/%.o,$(basename $1))
 programs = $(patsubst %.c,$(B)/%,$(wildcard $1/*.c))
-LIB      := $(call objects,$(wildcard lib/*.c lib/*.cc))
+LIB      := $(call objects,$(wildcard lib/*.c))
+MODULE   := $(B)/brume_vdb.so
+IN_MODULE := $(addprefix $(B)/lib/,vdb_module.o vdb_file.o grid.o memory.o error.o)
 CORE     := $(call objects,$(wildcard core/*.c core/cpu/*.c))
 CUDA_SRC := $(if $(filter 1,$(CUDA)),$(wildcard core/cuda/*.cu))
 GENERATED := $(B)/parser/lexer.o $(B)/parser/grammar.o
@@ -75,7 +81,8 @@ FUZZERS  := $(call programs,tests/fuzz)
 ifneq ($(CUDA_SRC),)
 CORE     += $(call objects,$(CUDA_SRC))
 CPPFLAGS += -DBRUME_CUDA
-OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static -ldl -lrt
+OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
+    -lstdc++ -ldl -lrt
 endif
 
 .DELETE_ON_ERROR:
@@ -85,8 +92,14 @@ endif
         lint format install bundle clean
 all: $(B)/brume
 
-$(B)/brume: $(PARSER) $(B)/libbrume.a
-	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS))
+$(B)/brume: $(PARSER) $(B)/libbrume.a | $(MODULE)
+	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS) \
+	    $(call rpath,$$ORIGIN:$$ORIGIN/../lib/brume))
+
+$(MODULE): $(IN_MODULE)
+	$(call run,link,$(CPP) $(CXXFLAGS) -shared -o $@ $^ $(LDFLAGS) $(VDB_LIBS))
+$(IN_MODULE): C += -fPIC
+$(IN_MODULE): CPP += -fPIC
 
 $(B)/libbrume.a: $(CORE) $(LIB)
 	$(call run,ar,rm -f $@ && $(AR) rcs $@ $^)
@@ -114,18 +127,20 @@ $(B)/%.o: %.cu
 	$(call run,nvcc,$(CU) $(CPPFLAGS) -MMD -MP -c -o $@ $<)
 
 # One program a file; each test can be run by itself.
-$(UNITS) $(TOOLS): %: %.o $(FRONT) $(B)/libbrume.a
-	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) -lcmocka $(LIBS))
+$(UNITS) $(TOOLS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
+	$(call run,link,$(C) $(CFLAGS) -o $@ $^ $(LDFLAGS) -lcmocka $(LIBS) \
+	    $(call rpath,$$ORIGIN/../..))
 unit: $(UNITS)
 tools: $(TOOLS)
 
 # Programs that give inputs of their own making to a part of the program;
 # OpenVDB asks for the sanitizers of C++.
-$(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a
-	$(call run,link,$(CPP) $(CXXFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LIBS))
+$(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
+	$(call run,link,$(CPP) $(CXXFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LIBS) \
+	    $(call rpath,$$ORIGIN/../..))
 fuzzers: $(FUZZERS)
 
--include $(patsubst %.o,%.d,$(LIB) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
+-include $(patsubst %.o,%.d,$(LIB) $(IN_MODULE) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
     $(FUZZERS:=.d)
 
 # ---- the two commands
@@ -171,6 +186,7 @@ ROOT     = $(DESTDIR)$(PREFIX)
 install: $(B)/brume
 	@install -D -t $(ROOT)/bin $(B)/brume
 	@install -D -m644 -t $(ROOT)/lib $(B)/libbrume.a
+	@install -D -m644 -t $(ROOT)/lib/brume $(MODULE)
 	@install -d $(ROOT)/include/brume $(ROOT)/lib/pkgconfig
 	@for h in $(HEADERS); do sed 's,"lib/,",' $$h \
 	    >$(ROOT)/include/brume/$${h##*/} || exit; done
@@ -191,7 +207,8 @@ bundle: $(B)/brume
 	@rm -rf $(B)/bundle
 	@$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(B)/bundle
 	@$(C) $(CFLAGS) -s -o $(B)/bundle/bin/brume $(PARSER) $(B)/libbrume.a \
-	    $(LDFLAGS) $(LIBS) -Wl,--disable-new-dtags,-rpath,'$$ORIGIN/../lib'
+	    $(LDFLAGS) $(LIBS) \
+	    $(call rpath,$$ORIGIN/../lib:$$ORIGIN/../lib/brume)
 	@.ci/bundle $(B)/bundle
 
 clean:

@@ -1,5 +1,5 @@
 /* vdb_file.h - the outside of a .vdb file: its header and directory, and a
- * check of a tree's bytes. For vdb.cc alone.
+ * check of a tree's bytes. For vdb_list.c and vdb_module.cc.
  *
  * OpenVDB 10 believes every count and size in a file: it makes strings and
  * tables as large as they say, and reads blocks of a negative size into the

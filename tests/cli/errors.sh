@@ -92,9 +92,30 @@ says 'missing.pov:1:'
 
 new_case 'a loop without end meets a limit or a signal'
 echo '#while (1) #end' >loop.pov
-timeout --preserve-status -k 5 -s TERM 2 "$BRUME" loop.pov --check >printed 2>said
+"$BRUME" loop.pov --check >printed 2>said &
+pid=$!
+wait_until_ready $pid
+sleep 0.5
+kill -TERM $pid
+wait $pid
 took $?
 exits 3 75
+
+new_case 'a program without its module for OpenVDB'
+cat >cloud.pov <<END
+box { 0, 1 hollow material { interior { media {
+  density { density_file vdb "kinds.vdb" "real" } } } } }
+END
+cp "$ROOT/tests/data/kinds.vdb" .
+brume cloud.pov --check
+exits 0
+mkdir alone
+cp "$BRUME" alone
+alone/brume cloud.pov --check >printed 2>said
+took $?
+exits 5
+says 'cloud.pov:2:'
+says "kinds.vdb': OpenVDB's module can't be loaded: brume_vdb.so: "
 
 new_case 'any bytes as scene'
 head -c 5000 /dev/urandom >bytes.pov

@@ -7,7 +7,8 @@ unset MAKEFLAGS MAKELEVEL
 root=$TMPDIR/root
 make --no-print-directory install DESTDIR="$root" PREFIX=/usr
 
-for file in bin/brume lib/libbrume.a include/brume/brume.h \
+for file in bin/brume lib/libbrume.a lib/brume/brume_vdb.so \
+    include/brume/brume.h \
     share/brume/scenes/quickstart.pov share/man/man1/brume.1; do
     [ -e "$root/usr/$file" ] || { echo "no $file"; exit 1; }
 done
@@ -15,6 +16,7 @@ done
 # The suite's own program without the parser, as a stranger would build it.
 sed 's|"core/brume.h"|<brume/brume.h>|' tests/unit/test_api.c \
     >"$TMPDIR/foreign.c"
+cp tests/data/kinds.vdb "$TMPDIR"
 export PKG_CONFIG_PATH="$root/usr/lib/pkgconfig"
 cd "$TMPDIR"
 # shellcheck disable=SC2046 # a list of flags
@@ -26,3 +28,9 @@ root/usr/bin/brume --version | grep -F "$version"
 root/usr/bin/brume root/usr/share/brume/scenes/quickstart.pov \
     +W32 +H24 --spp 1 +Oinstalled.exr
 [ -s installed.exr ]
+
+cat >cloud.pov <<END
+box { 0, 1 hollow material { interior { media {
+  density { density_file vdb "kinds.vdb" "real" } } } } }
+END
+root/usr/bin/brume --check cloud.pov

@@ -3,16 +3,6 @@
 . "$(dirname "$0")/lib"
 write_scene s.pov
 
-# wait_for TEXT FILE: until the file has it, at most 10 s.
-wait_for()
-{
-    for _ in $(seq 100); do
-        grep -qF -e "$1" "$2" 2>/dev/null && return
-        sleep 0.1
-    done
-    complain "never said: $1"
-}
-
 new_case 'SIGINT in the middle of a picture'
 "$BRUME" s.pov +W800 +H600 --spp 60000 +Olong.png >printed 2>said &
 pid=$!
@@ -45,7 +35,8 @@ mkfifo pipe
 "$BRUME" - <pipe >printed 2>said &
 pid=$!
 exec 9>pipe
-sleep 0.5
+wait_until_ready $pid
+sleep 0.3
 kill -TERM $pid
 wait $pid
 took $?

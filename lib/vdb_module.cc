@@ -1,4 +1,4 @@
-#include "lib/vdb.h"
+#include "lib/vdb_module.h"
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -10,7 +10,6 @@
 #pragma GCC visibility push(default)
 #include <openvdb/openvdb.h>
 #pragma GCC visibility pop
-#include "lib/output.h"
 #include "lib/vdb_file.h"
 
 namespace
@@ -333,18 +332,6 @@ grid *load(vdb_file &file, const std::string &name, brume_error *err)
     return convert_any(*base, file, *r, err);
 }
 
-/* The name that the role has in this file; empty with err set. */
-std::string name_for(const char *path, vdb_role role, brume_error *err)
-{
-    vdb_list *list = vdb_list_new(path, err);
-    if (!list)
-        return "";
-    const vdb_entry *e = vdb_choose(list, role, path, err);
-    const std::string name = e ? e->name : "";
-    vdb_list_free(list);
-    return name;
-}
-
 /* ---- writing ---- */
 
 void fill_leaf(openvdb::FloatTree &tree, const grid &g, const Coord &at,
@@ -396,19 +383,16 @@ openvdb::FloatGrid::Ptr to_openvdb(const grid &g, bool half)
     return out;
 }
 
-} /* namespace */
+/* ---- the calls ---- */
 
-grid *vdb_load(const char *path, const char *name, vdb_role role,
-               brume_error *err)
+grid *load_named(const char *path, const char *name, brume_error *err)
 {
     grid *result = nullptr;
     brume_error own = {};
     guarded(path, &own, [&] {
-        const std::string wanted = name && *name ? name
-                                                 : name_for(path, role, &own);
         file_owner file;
-        if (own.code == BRUME_OK && vdb_file_open(&file, path, &own))
-            result = load(file, wanted, &own);
+        if (vdb_file_open(&file, path, &own))
+            result = load(file, name, &own);
         return result != nullptr;
     });
     if (!result && err && err->code == BRUME_OK)
@@ -416,17 +400,14 @@ grid *vdb_load(const char *path, const char *name, vdb_role role,
     return result;
 }
 
-bool vdb_save(const char *path, const grid *const *grids, size_t count,
-              int flags, brume_error *err)
+bool save(const char *path, const char *name, const grid *const *grids,
+          size_t count, int flags, brume_error *err)
 {
-    output *o = output_open(path, err);
-    if (!o)
-        return false;
-    bool ok = guarded(path, err, [&] {
+    return guarded(path, err, [&] {
         openvdb::GridCPtrVec list;
         for (size_t i = 0; i < count; i++)
             list.push_back(to_openvdb(*grids[i], flags & VDB_SAVE_HALF));
-        openvdb::io::File file(output_name(o));
+        openvdb::io::File file(name);
         uint32_t how = openvdb::io::COMPRESS_ACTIVE_MASK;
         if (flags & VDB_SAVE_ZIP)
             how |= openvdb::io::COMPRESS_ZIP;
@@ -434,5 +415,10 @@ bool vdb_save(const char *path, const grid *const *grids, size_t count,
         file.write(list);
         return true;
     });
-    return output_close(o, ok, err);
 }
+
+} /* namespace */
+
+/* By VDB_MODULE_SYMBOL. */
+extern "C" __attribute__((visibility("default")))
+const vdb_module brume_vdb_module = {load_named, save};
