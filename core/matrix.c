@@ -40,8 +40,9 @@ matrix matrix_compose(const matrix *a, const matrix *b)
 
 static double cofactor(const matrix *a, int i, int j)
 {
-    int r0 = (i + 1) % 3, r1 = (i + 2) % 3;
-    int c0 = (j + 1) % 3, c1 = (j + 2) % 3;
+    static const int next[3] = {1, 2, 0};
+    int r0 = next[i], r1 = next[r0];
+    int c0 = next[j], c1 = next[c0];
     return a->m[r0][c0] * a->m[r1][c1] - a->m[r0][c1] * a->m[r1][c0];
 }
 

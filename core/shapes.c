@@ -175,11 +175,12 @@ bool shape_check(const brume_scene *scene, const struct brume_shape *s,
            check_not_negative(radii, 2, "a radius", err);
 }
 
+/* NULL of an empty list too. */
 static void *copy(const void *from, size_t count, size_t size,
                   struct brume_error *err)
 {
-    void *out = memory_new(count, size, err);
-    if (out && count > 0)
+    void *out = count > 0 ? memory_new(count, size, err) : NULL;
+    if (out)
         memcpy(out, from, count * size);
     return out;
 }
@@ -189,7 +190,8 @@ bool shape_own(struct brume_shape *s, struct brume_error *err)
     s->data = copy(s->data, s->count, sizeof *s->data, err);
     s->parts = copy(s->parts, s->part_count, sizeof *s->parts, err);
     s->clips = copy(s->clips, s->clip_count, sizeof *s->clips, err);
-    if (s->data && s->parts && s->clips)
+    if ((s->data || s->count == 0) && (s->parts || s->part_count == 0) &&
+        (s->clips || s->clip_count == 0))
         return true;
     shape_release(s);
     return false;
