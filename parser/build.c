@@ -167,7 +167,7 @@ static void apply_map(struct parser *parser, struct frame *frame,
         move(parser, frame, &by, word, at);
 }
 
-/* ---- which statement a word begins -------------------------------------- */
+/* ---- what a word means ------------------------------------------------- */
 
 static bool is_within(const struct statement *statement, enum build_kind kind)
 {
@@ -197,10 +197,10 @@ static bool has_room(const struct frame *frame, enum value_kind kind)
            (kind != VALUE_NONE && statement->takes & BUILD_TAKES(kind));
 }
 
-/* The statement that a word begins in `around`, NULL: where nothing is open,
- * or a declared value. A word of several statements means the one that belongs
- * there. BUILD_KINDS: it begins nothing. */
-static enum build_kind kind_of(const char *word, const struct frame *around)
+/* The statement that a word begins in another one; BUILD_KINDS: where nothing
+ * is open, or a declared value. A word of several statements means the one
+ * that belongs there. BUILD_KINDS: it begins nothing. */
+static enum build_kind kind_of(const char *word, enum build_kind around)
 {
     enum build_kind found = BUILD_KINDS;
 
@@ -209,13 +209,54 @@ static enum build_kind kind_of(const char *word, const struct frame *around)
         const char *begins = statements[i]->word;
         if (*begins != *word || strcmp(begins, word))
             continue;
-        if (around && is_within(statements[i], around->kind))
+        if (around != BUILD_KINDS && is_within(statements[i], around))
             return kind;
         if (!is_inner(statements[i]) || found == BUILD_KINDS)
             found = kind;
     }
     return found;
 }
+
+/* The maps that whatever can be moved takes. */
+static const struct param move_rows[] = {
+    PARAM_OWN("translate", 1, 1, 0), PARAM_OWN("rotate", 1, 1, 0),
+    PARAM_OWN("scale", 1, 1, 0),     PARAM_OWN("matrix", 1, 1, 0),
+    PARAM_OWN("transform", 0, 0, 0), {0}};
+
+/* The row of a word, and the group that it is of; NULL: the statement's own. */
+static const struct param *find_row(const struct statement *statement,
+                                    const char *word,
+                                    const struct param_group **of)
+{
+    const struct param *row = param_find(statement->params, word);
+    const struct param_group *group = statement->groups;
+
+    *of = NULL;
+    for (; !row && group && group->rows; group++) {
+        row = param_find(group->rows, word);
+        *of = row ? group : NULL;
+    }
+    return row || !statement->move ? row : param_find(move_rows, word);
+}
+
+/* In a statement of the kind; BUILD_KINDS: where nothing is open. */
+static const struct meaning *
+meaning_of(struct parser *parser, const struct name *word, enum build_kind in)
+{
+    struct meaning *known =
+        &parser->builder
+             ->meaning[(word->hash + 37 * (unsigned)in) % BUILD_MEANINGS];
+
+    if (known->word == word && known->in == in)
+        return known;
+    *known = (struct meaning){
+        .word = word, .in = in, .begins = kind_of(word->text, in)};
+    if (in != BUILD_KINDS)
+        known->row = find_row(statements[in], word->text, &known->group);
+    return known;
+}
+
+/* ---- statements begin and end ------------------------------------------- */
 
 /* A statement that could stand alone, inside of one that has no room for it:
  * the end of that one may be missing. */
@@ -295,14 +336,12 @@ static struct frame *settled(struct parser *parser)
 void build_open(struct parser *parser, const struct name *word,
                 struct location at)
 {
-    struct frame *around = settled(parser);
-    enum build_kind kind;
+    const struct frame *around = settled(parser);
 
     if (parser->failed)
         return;
-    if (around && around->kind == BUILD_KINDS)
-        around = NULL;
-    kind = kind_of(word->text, around);
+    enum build_kind in = around ? around->kind : BUILD_KINDS;
+    enum build_kind kind = meaning_of(parser, word, in)->begins;
     if (may_open(parser, kind, word->text, at))
         open(parser, kind, at);
     else /* There is no frame for what its braces hold. */
@@ -388,12 +427,6 @@ void build_note(struct parser *parser, const char *word, const char *note,
     parser_warn(parser, at, "'%s' has no effect: %s", word, note);
 }
 
-/* The maps that whatever can be moved takes. */
-static const struct param move_rows[] = {
-    PARAM_OWN("translate", 1, 1, 0), PARAM_OWN("rotate", 1, 1, 0),
-    PARAM_OWN("scale", 1, 1, 0),     PARAM_OWN("matrix", 1, 1, 0),
-    PARAM_OWN("transform", 0, 0, 0), {0}};
-
 /* What an unknown word takes with it. */
 static const struct param lost_row = {
     .word = "", .kind = PARAM_IGNORED, .most = PARAM_MOST};
@@ -401,22 +434,6 @@ static const struct param lost_row = {
 static bool is_move(const struct param *row)
 {
     return row >= move_rows && row < move_rows + 5;
-}
-
-/* The row of a word, and the group that it is of; NULL: the statement's own. */
-static const struct param *find_row(const struct statement *statement,
-                                    const char *word,
-                                    const struct param_group **of)
-{
-    const struct param *row = param_find(statement->params, word);
-    const struct param_group *group = statement->groups;
-
-    *of = NULL;
-    for (; !row && group && group->rows; group++) {
-        row = param_find(group->rows, word);
-        *of = row ? group : NULL;
-    }
-    return row || !statement->move ? row : param_find(move_rows, word);
 }
 
 /* Where what the open row sets lies. NULL: reported. */
@@ -431,10 +448,8 @@ static void *node_of(struct parser *parser, struct frame *frame,
 bool build_claims(struct parser *parser, const struct name *word)
 {
     const struct frame *frame = build_top(parser);
-    const struct param_group *group;
 
-    return frame && frame->kind != BUILD_KINDS &&
-           find_row(build_statement_of(frame), word->text, &group);
+    return frame && meaning_of(parser, word, frame->kind)->row;
 }
 
 /* A parameter was set: what follows from that. */
@@ -470,12 +485,11 @@ static void hand_over(struct parser *parser, struct frame *frame,
 {
     struct builder *builder = parser->builder;
     const struct statement *statement = build_statement_of(frame);
-    const struct param_group *group;
+    const struct param_group *group = frame->group;
 
     frame->given |= row->given;
     if (count == 0)
         builder->value_at = at;
-    find_row(statement, row->word, &group);
     if (group && group->values)
         group->values(parser, frame, row, builder->value, count, at);
     else
@@ -486,10 +500,9 @@ static void store(struct parser *parser, struct frame *frame,
                   const struct param *row, int count, struct location at)
 {
     struct builder *builder = parser->builder;
-    const struct param_group *group;
-
-    find_row(build_statement_of(frame), row->word, &group);
+    const struct param_group *group = frame->group;
     void *node = node_of(parser, frame, group);
+
     if (node && param_set(parser, row, node, at, builder->value, count,
                           builder->value_at))
         note_set(parser, frame, group, row, at);
@@ -524,10 +537,9 @@ static void choose(struct parser *parser, struct frame *frame,
                    const struct name *word, struct location at)
 {
     const struct param *row = frame->row;
-    const struct param_group *group;
+    const struct param_group *group = frame->group;
 
     frame->row = NULL;
-    find_row(build_statement_of(frame), row->word, &group);
     void *node = node_of(parser, frame, group);
     if (node && param_choose(parser, row, node, word->text, at))
         note_set(parser, frame, group, row, at);
@@ -537,7 +549,6 @@ void build_word(struct parser *parser, const struct name *word,
                 struct location at)
 {
     struct frame *frame = build_top(parser);
-    const struct param_group *group;
 
     if (frame && frame->row && frame->row->kind == PARAM_CHOICE) {
         choose(parser, frame, word, at);
@@ -547,7 +558,8 @@ void build_word(struct parser *parser, const struct name *word,
     if (!frame)
         return;
     const struct statement *statement = build_statement_of(frame);
-    const struct param *row = find_row(statement, word->text, &group);
+    const struct meaning *meaning = meaning_of(parser, word, frame->kind);
+    const struct param *row = meaning->row;
     if (!row) {
         report_unknown(parser, at, word->text, statement->word);
         row = &lost_row;
@@ -558,6 +570,7 @@ void build_word(struct parser *parser, const struct name *word,
         return;
     }
     frame->row = row;
+    frame->group = meaning->group;
     frame->row_at = at;
     frame->values = 0;
     if (param_most(row) == 0 && row->kind != PARAM_CHOICE)

@@ -76,6 +76,7 @@ struct frame {
     unsigned given;             /* bits of the parameters that were set    */
     void *node;                 /* what is being made: the kind's struct   */
     const struct param *row;    /* the word whose numbers are being read   */
+    const struct param_group *group;    /* that it is of, or NULL          */
     struct location row_at;
     int values;                 /* of them so far, in builder.value        */
     double position;            /* of an entry in its map                  */
@@ -230,7 +231,16 @@ struct index_list {
     size_t count, room;
 };
 
-enum { BUILD_NOTES = 16, BUILD_LACKS = 32 };
+/* What a word means in a statement. */
+struct meaning {
+    const struct name *word;    /* NULL: not known yet                     */
+    enum build_kind in;
+    enum build_kind begins;     /* BUILD_KINDS: no statement               */
+    const struct param *row;    /* NULL: it is none of its parameters      */
+    const struct param_group *group;    /* that the row is of, or NULL     */
+};
+
+enum { BUILD_NOTES = 16, BUILD_LACKS = 32, BUILD_MEANINGS = 512 };
 
 /* A node that nothing refers to any more. */
 struct spare {
@@ -241,6 +251,7 @@ struct builder {
     struct frame *frame;            /* open statements, innermost last     */
     size_t frames, frame_room;
     struct spare *spare[VALUE_KINDS];
+    struct meaning meaning[BUILD_MEANINGS]; /* found before, by hash       */
     const void *fresh;              /* the value made last, while only the
                                        grammar has it                      */
     struct value value[PARAM_MOST]; /* of the innermost frame's row        */
