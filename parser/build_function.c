@@ -97,7 +97,9 @@ static struct intern *known(struct parser *parser)
 
 static int id_of(struct parser *parser, const struct field_key *key)
 {
-    return intern_find(known(parser), key, sizeof *key);
+    struct intern_key bytes = intern_key(key, sizeof *key);
+
+    return intern_find(known(parser), &bytes);
 }
 
 /* ---- numbers of patterns and warps ------------------------------------- */
@@ -632,6 +634,7 @@ static bool write_layers(struct writer *w, const struct field_key *key)
 /* Its parts are functions by now. -1: `err`, or `missing`. */
 static int make(struct writer *w, const struct field_key *key)
 {
+    struct intern_key bytes = intern_key(key, sizeof *key);
     int id = -1;
 
     w->to = brume_function_new(w->parser->out->scene, 3, w->err);
@@ -640,7 +643,7 @@ static int make(struct writer *w, const struct field_key *key)
     else
         brume_function_free(w->to);
     if (id >= 0)
-        intern_keep(known(w->parser), &w->parser->arena, key, sizeof *key, id);
+        intern_keep(known(w->parser), &w->parser->arena, &bytes, id);
     return id;
 }
 

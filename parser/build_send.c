@@ -5,18 +5,17 @@
 
 enum { SENT_MATERIAL, SENT_FIELD, SENT_MEDIUM, SENT_INTERIOR };
 
-static int remember(struct parser *parser, int what, const void *bytes,
-                    size_t size, int id)
+static int remember(struct parser *parser, int what,
+                    const struct intern_key *key, int id)
 {
     if (id >= 0)
-        intern_keep(&parser->builder->intern[what], &parser->arena, bytes, size,
-                    id);
+        intern_keep(&parser->builder->intern[what], &parser->arena, key, id);
     return id;
 }
 
-static int sent(struct parser *parser, int what, const void *bytes, size_t size)
+static int sent(struct parser *parser, int what, const struct intern_key *key)
 {
-    return intern_find(&parser->builder->intern[what], bytes, size);
+    return intern_find(&parser->builder->intern[what], key);
 }
 
 static bool has_pattern(const struct patterned *on)
@@ -55,18 +54,18 @@ int build_send_material(struct parser *parser,
                         struct brume_error *err)
 {
     struct brume_material material;
-    int id;
 
     if (model_is_invisible(worn->what))
         return -1;
     model_material(worn->what, &worn->by, &material);
     if (is_function(worn->what))
         set_function(parser, worn, &material);
-    id = sent(parser, SENT_MATERIAL, &material, sizeof material);
+    struct intern_key key = intern_key(&material, sizeof material);
+    int id = sent(parser, SENT_MATERIAL, &key);
     if (id >= 0)
         return id;
     id = brume_add_material(parser->out->scene, &material, err);
-    return remember(parser, SENT_MATERIAL, &material, sizeof material, id);
+    return remember(parser, SENT_MATERIAL, &key, id);
 }
 
 /* ---- fields ------------------------------------------------------------ */
@@ -74,12 +73,13 @@ int build_send_material(struct parser *parser,
 static int send_field(struct parser *parser, const struct brume_field *field,
                       struct brume_error *err)
 {
-    int id = sent(parser, SENT_FIELD, field, sizeof *field);
+    struct intern_key key = intern_key(field, sizeof *field);
+    int id = sent(parser, SENT_FIELD, &key);
 
     if (id >= 0)
         return id;
     id = brume_add_field(parser->out->scene, field, err);
-    return remember(parser, SENT_FIELD, field, sizeof *field, id);
+    return remember(parser, SENT_FIELD, &key, id);
 }
 
 static void place_field(struct brume_field *field, const transform *by)
@@ -182,7 +182,6 @@ static int send_medium(struct parser *parser, const struct media *media,
                        struct brume_error *err)
 {
     struct brume_medium to;
-    int id;
 
     memset(&to, 0, sizeof to);
     for (int i = 0; i < 3; i++) {
@@ -201,11 +200,12 @@ static int send_medium(struct parser *parser, const struct media *media,
         !send_fire(parser, &media->fire, by, &to.fire, err))
         return -1;
     to.fire.on = to.fire.on && (channel <= 0 || !to.fire.additive);
-    id = sent(parser, SENT_MEDIUM, &to, sizeof to);
+    struct intern_key key = intern_key(&to, sizeof to);
+    int id = sent(parser, SENT_MEDIUM, &key);
     if (id >= 0)
         return id;
     id = brume_add_medium(parser->out->scene, &to, err);
-    return remember(parser, SENT_MEDIUM, &to, sizeof to, id);
+    return remember(parser, SENT_MEDIUM, &key, id);
 }
 
 static bool is_colored(const struct media *media)
@@ -239,10 +239,10 @@ int build_send_interior(struct parser *parser, const struct media *const *media,
                 return -1;
         }
     }
-    size_t size = (size_t)listed * sizeof *list;
-    int id = sent(parser, SENT_INTERIOR, list, size);
+    struct intern_key key = intern_key(list, (size_t)listed * sizeof *list);
+    int id = sent(parser, SENT_INTERIOR, &key);
     if (id >= 0)
         return id;
     id = brume_add_interior(parser->out->scene, list, listed, err);
-    return remember(parser, SENT_INTERIOR, list, size, id);
+    return remember(parser, SENT_INTERIOR, &key, id);
 }

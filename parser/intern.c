@@ -1,6 +1,13 @@
 #include "parser/intern.h"
 
+#include <stdbool.h>
 #include <string.h>
+
+struct intern_entry {
+    struct intern_key key; /* of the bytes below                          */
+    int id;
+    unsigned char bytes[];
+};
 
 /* FNV-1a (Fowler, Noll, Vo) with eight bytes for one, which sixty-four bits of
  * hash allow; the fold lets the low bits depend on the high ones. */
@@ -18,55 +25,80 @@ static uint64_t hash_of(const void *bytes, size_t size)
     return hash;
 }
 
-int intern_find(const struct intern *table, const void *bytes, size_t size)
+struct intern_key intern_key(const void *bytes, size_t size)
 {
-    uint64_t hash = hash_of(bytes, size);
-
-    if (!table->buckets)
-        return -1;
-    const struct intern_entry *entry =
-        table->bucket[hash & (table->buckets - 1)];
-    for (; entry; entry = entry->next)
-        if (entry->hash == hash && entry->size == size &&
-            !memcmp(entry->bytes, bytes, size))
-            return entry->id;
-    return -1;
+    return (struct intern_key){bytes, size, hash_of(bytes, size)};
 }
 
-static void widen(struct intern *table, struct arena *arena)
+static bool equal(const struct intern_entry *entry,
+                  const struct intern_key *key)
 {
-    size_t buckets = table->buckets ? 4 * table->buckets : 64;
-    struct intern_entry **bucket = arena_array(arena, buckets, sizeof *bucket);
+    return entry->key.hash == key->hash && entry->key.size == key->size &&
+           !memcmp(entry->key.bytes, key->bytes, key->size);
+}
 
-    if (!bucket)
-        return;
-    for (size_t i = 0; i < table->buckets; i++) {
-        struct intern_entry *next, *entry = table->bucket[i];
-        for (; entry; entry = next) {
-            next = entry->next;
-            entry->next = bucket[entry->hash & (buckets - 1)];
-            bucket[entry->hash & (buckets - 1)] = entry;
-        }
+/* The slot of the bytes, or the free one where they belong. */
+static struct intern_slot *seek(const struct intern *table,
+                                const struct intern_key *key)
+{
+    size_t at = key->hash & (table->slots - 1);
+
+    for (;; at = (at + 1) & (table->slots - 1)) {
+        struct intern_slot *slot = &table->slot[at];
+        if (!slot->number || (slot->hash == key->hash >> 32 &&
+                              equal(table->entry[slot->number - 1], key)))
+            return slot;
     }
-    table->bucket = bucket;
-    table->buckets = buckets;
 }
 
-void intern_keep(struct intern *table, struct arena *arena, const void *bytes,
-                 size_t size, int id)
+static void set(struct intern *table, size_t number)
 {
-    if (table->entries >= table->buckets)
-        widen(table, arena);
-    struct intern_entry *entry = arena_alloc(arena, sizeof *entry);
-    void *copy = arena_alloc(arena, size);
-    if (!entry || !copy || !table->buckets)
+    const struct intern_key *key = &table->entry[number - 1]->key;
+
+    *seek(table, key) = (struct intern_slot){
+        .hash = (uint32_t)(key->hash >> 32), .number = (uint32_t)number};
+}
+
+int intern_find(const struct intern *table, const struct intern_key *key)
+{
+    const struct intern_slot *slot = table->slots ? seek(table, key) : NULL;
+
+    return slot && slot->number ? table->entry[slot->number - 1]->id : -1;
+}
+
+/* Room for one more; at most half of the slots are in use. */
+static bool widen(struct intern *table, struct arena *arena)
+{
+    void *entry = table->entry;
+    bool fits = arena_grow(arena, &entry, &table->room, table->entries + 1,
+                           sizeof *table->entry);
+
+    table->entry = entry;
+    if (!fits || 2 * (table->entries + 1) <= table->slots)
+        return fits;
+    size_t slots = table->slots ? 2 * table->slots : 64;
+    struct intern_slot *slot = arena_array(arena, slots, sizeof *slot);
+    if (!slot)
+        return false;
+    table->slot = slot;
+    table->slots = slots;
+    for (size_t i = 1; i <= table->entries; i++)
+        set(table, i);
+    return true;
+}
+
+void intern_keep(struct intern *table, struct arena *arena,
+                 const struct intern_key *key, int id)
+{
+    struct intern_entry *entry = widen(table, arena)
+                                     ? arena_alloc(arena,
+                                                   sizeof *entry + key->size)
+                                     : NULL;
+    if (!entry)
         return;
-    memcpy(copy, bytes, size);
-    entry->hash = hash_of(bytes, size);
-    entry->size = size;
+    memcpy(entry->bytes, key->bytes, key->size);
+    entry->key = (struct intern_key){entry->bytes, key->size, key->hash};
     entry->id = id;
-    entry->bytes = copy;
-    entry->next = table->bucket[entry->hash & (table->buckets - 1)];
-    table->bucket[entry->hash & (table->buckets - 1)] = entry;
-    table->entries++;
+    table->entry[table->entries++] = entry;
+    set(table, table->entries);
 }

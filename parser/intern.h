@@ -7,23 +7,35 @@
 #include <stdint.h>
 #include "lib/arena.h"
 
-struct intern_entry {
-    struct intern_entry *next;
-    uint64_t hash;
-    size_t size;
-    int id;
-    const void *bytes;
+struct intern_entry;
+
+/* Open addressing (Knuth, TAOCP 3, 6.4). A search for what is not there meets
+ * the slots alone, which are kept small for the processor's caches. */
+struct intern_slot {
+    uint32_t hash;          /* its upper half                              */
+    uint32_t number;        /* of the entry, from 1; 0: free               */
 };
 
 struct intern {
-    struct intern_entry **bucket;
-    size_t buckets, entries;
+    struct intern_slot *slot;
+    size_t slots;
+    struct intern_entry **entry;
+    size_t entries, room;
 };
 
+struct intern_key {
+    const void *bytes;
+    size_t size;
+    uint64_t hash;
+};
+
+struct intern_key intern_key(const void *bytes, size_t size);
+
 /* The id that was kept for these bytes, or -1. */
-int intern_find(const struct intern *table, const void *bytes, size_t size);
-/* Keeps a copy in the arena. Without memory it is forgotten, no more. */
-void intern_keep(struct intern *table, struct arena *arena, const void *bytes,
-                 size_t size, int id);
+int intern_find(const struct intern *table, const struct intern_key *key);
+/* Keeps a copy of the bytes in the arena. Without memory it is forgotten, no
+ * more. */
+void intern_keep(struct intern *table, struct arena *arena,
+                 const struct intern_key *key, int id);
 
 #endif
