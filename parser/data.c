@@ -2,21 +2,9 @@
 #include "lib/number.h"
 #include "parser/grammar.h"
 
-static bool is_blank(char c)
-{
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
-}
-
-static const char *skip_blanks(const char *c)
-{
-    while (is_blank(*c))
-        c++;
-    return c;
 }
 
 /* ---- measuring --------------------------------------------------------- */
@@ -48,10 +36,10 @@ static const char *skip_number(const char *c)
 static const char *skip_vector(const char *c)
 {
     for (int terms = 1; terms <= VALUE_TERMS; terms++) {
-        c = skip_number(skip_blanks(c));
+        c = skip_number(data_skip_blanks(c));
         if (!c)
             return NULL;
-        c = skip_blanks(c);
+        c = data_skip_blanks(c);
         if (*c == '>')
             return terms > 1 ? c + 1 : NULL;
         if (*c++ != ',')
@@ -60,35 +48,37 @@ static const char *skip_vector(const char *c)
     return NULL;
 }
 
-size_t data_measure(const char *text)
+/* Behind a number or a vector; NULL: neither is there. */
+static const char *skip_item(const char *c)
+{
+    return *c == '<' ? skip_vector(c + 1) : skip_number(c);
+}
+
+struct data_span data_measure(const char *text, bool list)
 {
     enum { WORTH = 6 }; /* bytes: a short vector                   */
-    const char *end = text;
-    for (const char *c = text;; c = skip_blanks(c + 1)) {
-        const char *item = *c == '<' ? skip_vector(c + 1) : skip_number(c);
-        if (!item)
-            break;
-        c = skip_blanks(item);
+    if (*text != '<' && !list)
+        return (struct data_span){0, false};
+    const char *first = skip_item(text), *end = text;
+    for (const char *item = first; list && item;) {
+        const char *c = data_skip_blanks(item);
         if (*c != ',' && *c != '}')
             break;
         end = item;
-        if (*c == '}')
-            break;
+        item = *c == ',' ? skip_item(data_skip_blanks(c + 1)) : NULL;
     }
-    return end - text >= WORTH ? (size_t)(end - text) : 0;
-}
-
-size_t data_measure_vector(const char *text)
-{
-    const char *end = *text == '<' ? skip_vector(text + 1) : NULL;
-    return end ? (size_t)(end - text) : 0;
+    bool vector = *text == '<' && first && (end == text || end == first);
+    if (vector)
+        end = first;
+    return (struct data_span){
+        vector || end - text >= WORTH ? (uint32_t)(end - text) : 0, vector};
 }
 
 /* ---- reading ----------------------------------------------------------- */
 
 const char *data_token(const char **at, const char *end, struct token *token)
 {
-    const char *c = skip_blanks(*at);
+    const char *c = data_skip_blanks(*at);
     if (c >= end)
         return NULL;
     if (is_digit(*c) || *c == '.') {
@@ -112,7 +102,7 @@ static const char *read_number(const char *c, double *value)
 const char *data_item(struct data_run *run, struct value *value)
 {
     const char *c = run->text;
-    while (is_blank(*c) || *c == ',')
+    while (*(c = data_skip_blanks(c)) == ',')
         c++;
     if (c >= run->end)
         return NULL;
@@ -121,7 +111,7 @@ const char *data_item(struct data_run *run, struct value *value)
     if (*c != '<')
         return read_number(c, &value->v[0]);
     for (value->terms = 0; *c != '>'; value->terms++)
-        c = skip_blanks(
-            read_number(skip_blanks(c + 1), &value->v[value->terms]));
+        c = data_skip_blanks(
+            read_number(data_skip_blanks(c + 1), &value->v[value->terms]));
     return c + 1;
 }

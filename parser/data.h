@@ -15,12 +15,17 @@ struct data_run {
     const char *text, *end;
 };
 
-/* The bytes of the run whose first item begins at `text`, which ends with NUL;
- * 0: none that is worth the name. */
-size_t data_measure(const char *text);
-/* The same for a run that is one vector, of 2 to VALUE_TERMS terms: whatever
- * stands around it, it is an operand. */
-size_t data_measure_vector(const char *text);
+/* The run whose first item begins at `text`, which ends with NUL; of length 0:
+ * none that is worth the name. Where no list is, only a vector of 2 to
+ * VALUE_TERMS terms is one: whatever stands around it, it is an operand. */
+struct data_span data_measure(const char *text, bool list);
+
+static inline const char *data_skip_blanks(const char *c)
+{
+    while (*c == ' ' || (*c >= '\t' && *c <= '\r'))
+        c++;
+    return c;
+}
 
 /* The next token of a run at or behind *at, which moves behind it; returns
  * where it begins, or NULL: the run ends at `end`. */

@@ -193,7 +193,8 @@ bool expand_return(struct expander *expander, size_t frames,
 
 /* ---- recover.c ---- */
 
-/* Whether a token is lost, being what an error made worthless. */
+/* While pending->dropping: whether a token is lost, being what an error made
+ * worthless. */
 bool recover_drops(struct pending *pending, int kind);
 /* Whether the name that comes next seems to begin a statement, so that no more
  * is lost. */

@@ -226,12 +226,25 @@ void expander_spend(struct parser *parser, int tokens, struct location at)
 
 static void count_brackets(struct pending *pending, int kind)
 {
-    pending->braces += kind == '{';
-    pending->braces -= kind == '}' && pending->braces > 0;
-    if (kind == '(' || kind == '{' || kind == '[') {
+    switch (kind) {
+    case '{':
+        pending->braces++;
         pending->depth++;
-    } else if (kind == ')' || kind == '}' || kind == ']') {
+        break;
+    case '(':
+    case '[':
+        pending->depth++;
+        break;
+    case '}':
+        pending->braces -= pending->braces > 0;
         pending->depth -= pending->depth > 0;
+        break;
+    case ')':
+    case ']':
+        pending->depth -= pending->depth > 0;
+        break;
+    default:
+        break;
     }
 }
 
@@ -246,7 +259,7 @@ static bool push(struct expander *expander, int kind,
     if (!count_token(expander, at)) {
         return false;
     }
-    if (recover_drops(pending, kind)) {
+    if (pending->dropping && recover_drops(pending, kind)) {
         return true;
     }
     expander->pushed++;
@@ -611,7 +624,7 @@ static bool push_run(struct expander *expander, const struct token *run)
 {
     struct cursor *cursor = &expand_frame(expander)->cursor;
     const char *text = cursor->chunk->text + run->offset;
-    SCENE_YYSTYPE meaning = {.data = {text, text + run->length}};
+    SCENE_YYSTYPE meaning = {.data = {text, text + run->data.length}};
     cursor_jump(cursor, cursor->next + 1);
     return push(expander, TOK_DATA, &meaning, token_location(run));
 }
@@ -621,14 +634,14 @@ static bool push_vector(struct expander *expander, const struct token *run)
 {
     struct cursor *cursor = &expand_frame(expander)->cursor;
     const char *text = cursor->chunk->text + run->offset;
-    struct data_run data = {text, text + run->length};
+    struct data_run data = {text, text + run->data.length};
     SCENE_YYSTYPE meaning;
     data_item(&data, &meaning.value);
     struct location at = token_location(run);
     cursor_jump(cursor, cursor->next + 1);
     expander_spend(expander->parser, 2 * meaning.value.terms, at);
     bool going = push(expander, TOK_VECTOR_ID, &meaning, at);
-    expander->place.offset = at.offset + run->length - 1;
+    expander->place.offset = at.offset + run->data.length - 1;
     return going;
 }
 
@@ -644,9 +657,7 @@ static bool take_run(struct expander *expander, bool *going)
         return false;
     }
     /* An operator may follow a vector, but no other run. */
-    const char *text = expand_frame(expander)->cursor.chunk->text;
-    bool vector = data_measure_vector(text + run->offset) == run->length;
-    if (vector && accepts(pending, TOK_VECTOR_ID)) {
+    if (run->data.vector && accepts(pending, TOK_VECTOR_ID)) {
         *going = push_vector(expander, run);
         return true;
     }

@@ -217,7 +217,9 @@ expr:
 components:
     component
         { $$ = 1; }
-  | components comma component
+  | components component
+        { $$ = $1 + 1; }
+  | components ',' component
         { $$ = $1 + 1; }
   ;
 
@@ -302,7 +304,9 @@ series_open:
 arguments:
     argument
         { $$ = 1; }
-  | arguments comma argument
+  | arguments argument
+        { $$ = $1 + 1; }
+  | arguments ',' argument
         { $$ = $1 + 1; }
   ;
 
@@ -496,7 +500,8 @@ layers:
  * values; entries of maps. A comma may stand behind each. */
 contents:
     %empty
-  | contents content comma
+  | contents content
+  | contents content ','
   ;
 
 content:

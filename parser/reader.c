@@ -226,7 +226,7 @@ struct token *cursor_special(struct cursor *cursor)
     }
     if (!cursor->data) {
         cursor->data = cursor->chunk->text + token->offset;
-        cursor->data_end = cursor->data + token->length;
+        cursor->data_end = cursor->data + token->data.length;
         cursor->has_token = false;
     }
     if (!cursor->has_token && !read_datum(cursor)) {

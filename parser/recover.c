@@ -31,8 +31,6 @@ bool recover_drops(struct pending *pending, int kind)
 {
     size_t *depth = &pending->drop_depth;
 
-    if (!pending->dropping)
-        return false;
     if (kind == TOK_END || (*depth == 0 && begins_anew(kind))) {
         pending->dropping = false;
         return false;

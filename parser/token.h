@@ -22,6 +22,12 @@ struct block_link {
                                others, the one that opened it              */
 };
 
+/* A run of plain data (data.h). */
+struct data_span {
+    uint32_t length;        /* bytes of the text                           */
+    bool vector;            /* it is one vector                            */
+};
+
 /* `kind` is an enum scene_yytokentype of the grammar. */
 struct token {
     uint16_t kind;
@@ -33,7 +39,7 @@ struct token {
         struct name *name;              /* words, TOK_DOT, TOK_UNSUPPORTED */
         const char *error;              /* TOK_BAD: what is wrong with it  */
         struct block_link block;        /* directives of blocks            */
-        uint32_t length;                /* TOK_DATA: bytes of the text     */
+        struct data_span data;          /* TOK_DATA                        */
     };
 };
 

@@ -183,29 +183,35 @@ static void test_runs_of_data(void **state)
     (void)state;
     static const struct {
         const char *text;
-        size_t length;
-    } runs[] = {{"<1,2,3>, <4,5,6>}", 16},
-                {"10, -2.5e-3 , +.5 }", 17},
-                {"<1,2,3>, <4,5,6>*2 }", 7},
-                {"<1,2,3>, 4 5}", 7},
-                {"<1,2,3>, <4,5,6>, x}", 16},
-                {"<1,2,3> + x, 1}", 0},
-                {"1, 2}", 0},
-                {"<1>, <2>}", 0},
-                {"<1,2,3,4,5,6>, 1, 2}", 0},
-                {"<1,2,3,>, 1, 2}", 0},
-                {"100000, 1e}", 6},
-                {"100000, 1.5.x}", 6},
-                {"100000, 1.5f}", 6},
-                {"100000, .}", 6},
-                {"100000, - 5}", 6},
-                {"100000", 0}};
+        uint32_t length;
+        bool vector;
+    } runs[] = {{"<1,2,3>, <4,5,6>}", 16, false},
+                {"10, -2.5e-3 , +.5 }", 17, false},
+                {"<1,2,3>, <4,5,6>*2 }", 7, true},
+                {"<1,2,3>, 4 5}", 7, true},
+                {"<1,2,3>, <4,5,6>, x}", 16, false},
+                {"<1,2,3> + x, 1}", 7, true},
+                {"1, 2}", 0, false},
+                {"<1>, <2>}", 0, false},
+                {"<1,2,3,4,5,6>, 1, 2}", 0, false},
+                {"<1,2,3,>, 1, 2}", 0, false},
+                {"100000, 1e}", 6, false},
+                {"100000, 1.5.x}", 6, false},
+                {"100000, 1.5f}", 6, false},
+                {"100000, .}", 6, false},
+                {"100000, - 5}", 6, false},
+                {"100000", 0, false}};
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
-        assert_int_equal(data_measure(runs[i].text), runs[i].length);
+        struct data_span run = data_measure(runs[i].text, true);
+        assert_int_equal(run.length, runs[i].length);
+        assert_int_equal(run.vector, runs[i].vector);
     }
-    assert_int_equal(data_measure_vector("<1,2, -3>*2"), 9);
-    assert_int_equal(data_measure_vector("<1,2,a>"), 0);
-    assert_int_equal(data_measure_vector("<1,2"), 0);
+    assert_int_equal(data_measure("<1,2, -3>*2", false).length, 9);
+    assert_true(data_measure("<1,2>", false).vector);
+    assert_int_equal(data_measure("<1,2,3>, 4}", false).length, 7);
+    assert_int_equal(data_measure("<1,2,a>", false).length, 0);
+    assert_int_equal(data_measure("<1,2", false).length, 0);
+    assert_int_equal(data_measure("100000, 1}", false).length, 0);
 }
 
 /* The same tokens as if each were scanned by itself. */
