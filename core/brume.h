@@ -601,6 +601,41 @@ BRUME_API bool brume_function_pattern(struct brume_function *function,
  * has it: the pattern of a density file. */
 BRUME_API bool brume_function_grid(struct brume_function *function, int grid,
                                    struct brume_error *err);
+/* A picture: `channels` numbers a texel, row 0 on top, finite: grey; grey and
+ * transmit; red, green, blue; the same and transmit; or filter before it. */
+struct brume_image {
+    int width, height, channels;
+    const float *texel;
+};
+#define BRUME_MAX_TEXELS ((size_t)1 << 28)
+/* Copies it. Fails with BRUME_ERR_LIMIT if the scene's have more texels. */
+BRUME_API int brume_add_image(brume_scene *scene,
+                              const struct brume_image *image,
+                              struct brume_error *err);
+
+enum brume_image_map {
+    BRUME_IMAGE_PLANAR = 0,     /* x and y from 0 to 1                     */
+    BRUME_IMAGE_SPHERICAL = 1,  /* about y, from +x to +z                  */
+    BRUME_IMAGE_CYLINDRICAL = 2,    /* the same; y from 0 to 1             */
+    BRUME_IMAGE_TOROIDAL = 5    /* about a ring of radius 1 about y        */
+};
+enum brume_image_interpolate {
+    BRUME_IMAGE_NEAREST = 0, BRUME_IMAGE_BILINEAR = 2, BRUME_IMAGE_BICUBIC = 3,
+    BRUME_IMAGE_DISTANCE = 4    /* of four, by the squared distance        */
+};
+/* How a picture is laid over space, and what is added to its filter and
+ * transmit. Where it is not, with `once`, it is clear: 1, 1, 1, 0, 1. */
+struct brume_image_use {
+    int image;
+    enum brume_image_map map;
+    bool once;
+    enum brume_image_interpolate interpolate;
+    double filter, transmit;
+};
+/* Takes a point and leaves red, green, blue, filter, transmit. */
+BRUME_API bool brume_function_image(struct brume_function *function,
+                                    const struct brume_image_use *use,
+                                    struct brume_error *err);
 /* Takes a value and leaves its place in a map, from 0 to 1; the exponent is
  * that of poly_wave. */
 BRUME_API bool brume_function_wave(struct brume_function *function,

@@ -614,7 +614,8 @@ bool brume_function_arity(const brume_scene *scene, int id, int *parameters,
 
 machine function_machine(const brume_scene *scene)
 {
-    machine m = {scene->code, scene->functions, scene->pool, scene->grids};
+    machine m = {scene->code,  scene->functions, scene->pool,
+                 scene->grids, scene->images,    scene->texels};
     return m;
 }
 

@@ -51,6 +51,9 @@ bool pool_add(struct brume_scene *s, const double *numbers, size_t count,
 bool spline_check(const struct brume_scene *s, int id, int kind,
                   struct brume_error *err);
 
+/* Whether a picture can be looked up with those IMAGE_NUMBERS. */
+bool image_numbers_hold(const double *numbers);
+
 /* How many numbers from there on a pattern or warp has (1 for none), the
  * sources of waves included; 0 if there are not so many, or not such ones. */
 size_t pattern_size(int kind, const double *numbers, size_t room);

@@ -109,6 +109,9 @@ static bool operand_holds(const struct verifier *v, char shape,
         return pool_room(v, operand) >= 12;
     case '4':
         return pool_room(v, operand) >= 4;
+    case 'g':
+        return pool_room(v, operand) >= IMAGE_NUMBERS &&
+               image_numbers_hold(v->scene->pool + operand);
     case 'w':
         return warp_size(i->c, v->scene->pool + operand,
                          pool_room(v, operand)) > 0;
@@ -137,6 +140,8 @@ static bool special_holds(const struct verifier *v,
     switch (i->op) {
     case MACHINE_RETURN:
         return i->b == v->f->results && (i->b == 1 || in_frame(v, i->a, i->b));
+    case MACHINE_IMAGE:
+        return i->c >= 0 && (size_t)i->c < v->scene->images_count;
     case MACHINE_GRID:
         return i->c >= 0 && (size_t)i->c < v->scene->grids_count;
     case MACHINE_MIX:

@@ -188,6 +188,23 @@ static bool add_nodes(struct flat *f, const struct assembly *a,
     return true;
 }
 
+/* Queries read the scene's own. */
+static bool add_images(const struct prepare *job, struct brume_error *err)
+{
+    const brume_scene *s = job->scene;
+    struct flat *f = job->flat;
+    if (s->images_count == 0)
+        return true;
+    flat_image *images = FLAT_EXTEND(f, images, s->images_count, err);
+    float *texels = images ? FLAT_EXTEND(f, texels, s->texels_count, err)
+                           : NULL;
+    if (!texels)
+        return false;
+    memcpy(images, s->images, s->images_count * sizeof *images);
+    memcpy(texels, s->texels, s->texels_count * sizeof *texels);
+    return true;
+}
+
 /* The scene's functions go along where an isosurface, a pigment or the sky
  * asks for their values. */
 static bool add_functions(const struct prepare *job, const struct assembly *a,
@@ -211,6 +228,8 @@ static bool add_functions(const struct prepare *job, const struct assembly *a,
         return false;
     memcpy(code, s->code, s->code_count * sizeof *code);
     memcpy(functions, s->functions, s->functions_count * sizeof *functions);
+    if (!job->exact && !add_images(job, err))
+        return false;
     for (size_t i = 0; i < s->pool_count; i++) {
         pool[i] = (float)s->pool[i];
         exact[i] = s->pool[i];

@@ -56,6 +56,8 @@ static const flat_scene *query_scene(brume_scene *scene, int shape,
     if (!q || !q->flat)
         return NULL;
     q->flat->view.host_grids = scene->grids;
+    q->flat->view.images = scene->images;
+    q->flat->view.texels = scene->texels;
     return &q->flat->view;
 }
 

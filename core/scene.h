@@ -24,6 +24,8 @@ struct scene_query;
     X(struct grid *, grids)                                                   \
     X(machine_instruction, code)        /* of all functions */                \
     X(machine_function, functions)                                            \
+    X(flat_image, images)                                                     \
+    X(float, texels)                                                          \
     X(double, pool)             /* numbers that instructions refer to */      \
     X(int32_t, splines)         /* their places in the pool */
 

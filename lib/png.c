@@ -110,6 +110,7 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t size)
 struct header {
     png_uint_32 width, height;
     int channels, bits, intent;
+    double gamma;
 };
 
 static bool read_info(png_structp png, png_infop info, FILE *stream,
@@ -127,6 +128,8 @@ static bool read_info(png_structp png, png_infop info, FILE *stream,
     png_set_interlace_handling(png);
     if (!png_get_sRGB(png, info, &header->intent))
         header->intent = -1;
+    if (header->intent >= 0 || !png_get_gAMA(png, info, &header->gamma))
+        header->gamma = 0;
     png_read_update_info(png, info);
     header->width = png_get_image_width(png, info);
     header->height = png_get_image_height(png, info);
@@ -138,10 +141,14 @@ static bool read_info(png_structp png, png_infop info, FILE *stream,
 static void take_palette(png_structp png, png_infop info, struct raster *raster)
 {
     png_colorp color;
+    png_bytep opacity;
+    int opacities = 0;
     if (png_get_color_type(png, info) != PNG_COLOR_TYPE_PALETTE ||
         !png_get_PLTE(png, info, &color, &raster->colors))
         return;
+    png_get_tRNS(png, info, &opacity, &opacities, NULL);
     for (int i = 0; i < raster->colors; i++) {
+        raster->opacity[i] = i < opacities ? opacity[i] : 255;
         raster->palette[i][0] = color[i].red;
         raster->palette[i][1] = color[i].green;
         raster->palette[i][2] = color[i].blue;
@@ -196,6 +203,7 @@ static struct raster *read_raster(png_structp png, png_infop info,
     if (!raster)
         return NULL;
     raster->intent = header->intent;
+    raster->gamma = header->gamma;
     take_palette(png, info, raster);
     if (read_picture(png, info, raster, s->err))
         return raster;

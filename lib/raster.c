@@ -56,6 +56,7 @@ struct raster *raster_new(long long width, long long height, int channels,
     raster->channels = channels;
     raster->max = max;
     raster->intent = -1;
+    memset(raster->opacity, 255, sizeof raster->opacity);
     raster->sample = memory_new((size_t)(width * height * channels),
                                 sizeof *raster->sample, err);
     if (raster->sample)

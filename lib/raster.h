@@ -19,7 +19,10 @@ struct raster {
     int colors;             /* of the palette, whose numbers the one channel
                                has; 0: none                                */
     uint8_t palette[256][3];
+    uint8_t opacity[256];   /* of its colours                              */
     int intent;             /* of a PNG's sRGB chunk; -1: there is none    */
+    double gamma;           /* that a PNG without it is encoded by (0.45455
+                               of usual ones); 0: it does not say          */
     uint16_t *sample;       /* interleaved codes, rows from the top        */
 };
 

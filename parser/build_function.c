@@ -410,6 +410,35 @@ static bool write_wave(struct writer *w, const struct pattern *pattern)
                                pattern->frequency, pattern->phase, w->err);
 }
 
+/* Its own world lies in the pattern's by a map of the file's. */
+static bool write_grid(struct writer *w, const struct pattern *pattern)
+{
+    if (pattern->grid < 0) {
+        w->missing = "its file";
+        return false;
+    }
+    return write_inverse(w, &pattern->grid_by) &&
+           brume_function_grid(w->to, pattern->grid, w->err);
+}
+
+/* Of an image_pattern the grey, or how clear it is: what has no alpha gives
+ * its first number, as in POV-Ray. */
+static bool write_image(struct writer *w, const struct pattern *pattern)
+{
+    struct brume_image_use use;
+
+    if (!load_image(w->parser, pattern, &use)) {
+        w->missing = "its picture";
+        return false;
+    }
+    bool fine = brume_function_image(w->to, &use, w->err);
+    if (!fine || pattern->kind == PATTERN_IMAGE_MAP)
+        return fine;
+    if (pattern->image->use != IMAGE_USE_ALPHA)
+        return brume_function_op(w->to, BRUME_OP_GRAY, w->err);
+    return brume_function_pick(w->to, 5, pattern->image->clear ? 4 : 0, w->err);
+}
+
 /* Patterns that core has in part. */
 static bool is_missing(const struct pattern *pattern)
 {
@@ -431,6 +460,10 @@ static bool write_value(struct writer *w, const struct pattern *pattern)
         fine = brume_function_call(w->to, pattern->function->id, 3, w->err);
     } else if (pattern->kind == PATTERN_PIGMENT) {
         fine = write_pigment_pattern(w, pattern);
+    } else if (pattern->kind == PATTERN_IMAGE) {
+        fine = write_image(w, pattern);
+    } else if (pattern->kind == PATTERN_DENSITY_FILE) {
+        fine = write_grid(w, pattern);
     } else if (kind < 0 || is_missing(pattern)) {
         w->missing = "its pattern";
         return false;
@@ -529,6 +562,8 @@ static bool write_field(struct writer *w, const struct field_key *key)
     }
     if (!write_point(w) || !write_place(w, key))
         return false;
+    if (pattern->kind == PATTERN_IMAGE_MAP)
+        return write_image(w, pattern);
     if (pattern->kind == PATTERN_AVERAGE)
         return write_map(w, key->map, true);
     if (key->bare)
@@ -539,74 +574,6 @@ static bool write_field(struct writer *w, const struct field_key *key)
 }
 
 /* ---- layers ------------------------------------------------------------ */
-
-static bool take(struct brume_function *to, int index, struct brume_error *err)
-{
-    return brume_function_parameter(to, index, err);
-}
-
-static bool apply(struct brume_function *to, enum brume_op op,
-                  struct brume_error *err)
-{
-    return brume_function_op(to, op, err);
-}
-
-/* max(0, 1 - filter - transmit) of the colour whose parameters begin there. */
-static bool write_own_part(struct brume_function *to, int first,
-                           struct brume_error *err)
-{
-    return brume_function_constant(to, 0, err) &&
-           brume_function_constant(to, 1, err) && take(to, first + 3, err) &&
-           apply(to, BRUME_OP_SUBTRACT, err) && take(to, first + 4, err) &&
-           apply(to, BRUME_OP_SUBTRACT, err) && apply(to, BRUME_OP_MAX, err);
-}
-
-/* min(1, filter + transmit) of the upper colour, times what `index` is. */
-static bool write_through(struct brume_function *to, int index,
-                          struct brume_error *err)
-{
-    return brume_function_constant(to, 1, err) && take(to, 3, err) &&
-           take(to, 4, err) && apply(to, BRUME_OP_ADD, err) &&
-           apply(to, BRUME_OP_MIN, err) && take(to, index, err) &&
-           apply(to, BRUME_OP_MULTIPLY, err);
-}
-
-/* own c + (filter c + transmit) below's own below's c, as if of the whole. */
-static bool write_channel(struct brume_function *to, int c,
-                          struct brume_error *err)
-{
-    return write_own_part(to, 0, err) && take(to, c, err) &&
-           apply(to, BRUME_OP_MULTIPLY, err) && take(to, c, err) &&
-           take(to, 3, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
-           take(to, 4, err) && apply(to, BRUME_OP_ADD, err) &&
-           write_own_part(to, 5, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
-           take(to, 5 + c, err) && apply(to, BRUME_OP_MULTIPLY, err) &&
-           apply(to, BRUME_OP_ADD, err) &&
-           brume_function_constant(to, 1e-9, err) &&
-           brume_function_constant(to, 1, err) && write_through(to, 8, err) &&
-           apply(to, BRUME_OP_SUBTRACT, err) && write_through(to, 9, err) &&
-           apply(to, BRUME_OP_SUBTRACT, err) && apply(to, BRUME_OP_MAX, err) &&
-           apply(to, BRUME_OP_DIVIDE, err);
-}
-
-/* The function of a colour and the one below it; see cover in surface.c. */
-static int cover(struct parser *parser, struct brume_error *err)
-{
-    struct builder *builder = parser->builder;
-    struct brume_function *to;
-
-    if (builder->cover > 0)
-        return builder->cover - 1;
-    to = brume_function_new(parser->out->scene, 10, err);
-    if (!to)
-        return -1;
-    for (int c = 0; c < 3; c++)
-        write_channel(to, c, err);
-    write_through(to, 8, err);
-    write_through(to, 9, err);
-    builder->cover = brume_add_function(parser->out->scene, to, err) + 1;
-    return builder->cover - 1;
-}
 
 static struct field_key upper_key(const struct field_key *key)
 {
@@ -620,7 +587,7 @@ static struct field_key upper_key(const struct field_key *key)
 static bool write_layers(struct writer *w, const struct field_key *key)
 {
     struct field_key upper = upper_key(key), lower = texture_key(key->below);
-    int both = cover(w->parser, w->err);
+    int both = build_cover(w->parser, w->err);
 
     return both >= 0 && write_point(w) &&
            brume_function_call(w->to, id_of(w->parser, &upper), 3, w->err) &&

@@ -1,5 +1,4 @@
 /* build_heights.c - height_field: heights of a function or of a picture. */
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +8,6 @@
 #include "parser/formula.h"
 
 enum { HEIGHTS_FILE, HEIGHTS_GAMMA, HEIGHTS_SRGB };
-enum { WORD_ROOM = 8 };
 
 /* The picture that is named, before it is read. */
 struct heights {
@@ -49,14 +47,11 @@ static bool gives_heights(struct parser *parser, const struct value *value,
            build_is_function_of_space(parser, value, at);
 }
 
-/* At the middle of each column and row, the first row at the top, as POV-Ray
- * makes a picture of it. */
 static void function_heights(struct parser *parser, struct frame *frame,
                              const struct value *value, struct location at)
 {
     const struct function *function = value->node;
     struct brume_shape *shape = &((struct object *)frame->node)->shape;
-    struct brume_error err = {0};
     double out[BRUME_MAX_RESULTS];
 
     if (function->columns == 0) {
@@ -69,13 +64,8 @@ static void function_heights(struct parser *parser, struct frame *frame,
     parser->builder->numbers = frame->mark;
     for (int row = 0; row < function->rows; row++)
         for (int column = 0; column < function->columns; column++) {
-            const double p[3] = {column / (double)function->columns,
-                                 row / (double)function->rows, 0};
-            if (!brume_eval_function(parser->out->scene, function->id, p,
-                                     function->parameters, out, &err)) {
-                parser_relay(parser, at, &err);
+            if (!load_cell(parser, function, column, row, out, at))
                 return;
-            }
             double height = height_of(function, out);
             if (!build_number(parser, height, at))
                 return;
@@ -164,52 +154,14 @@ static double picture_height(const struct heights *heights,
     return 0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2];
 }
 
-/* The ending of a file's name, small; empty: there is none so short. */
-static void ending_of(struct string name, char word[WORD_ROOM])
-{
-    const char *dot = strrchr(name.text, '.');
-    size_t n = 0;
-
-    if (dot && strlen(dot + 1) < WORD_ROOM)
-        for (; dot[n + 1]; n++)
-            word[n] = (char)tolower((unsigned char)dot[n + 1]);
-    word[n] = '\0';
-}
-
-static struct raster *read_picture(struct parser *parser,
-                                   const struct heights *heights)
-{
-    struct brume_error err = {0};
-    char ending[WORD_ROOM];
-    const char *format = heights->format, *path;
-    struct raster *raster;
-
-    ending_of(heights->name, ending);
-    if (!format)
-        format = ending;
-    if (!raster_reads(format)) {
-        parser_mistake(parser, heights->at,
-                       "pictures of format '%s' are not supported yet; png, "
-                       "pgm, ppm and tga are",
-                       format);
-        return NULL;
-    }
-    if (!build_has_file(parser, heights->name, heights->at))
-        return NULL;
-    path = parser_find_file(parser, heights->at, heights->name, PARSER_DATA);
-    raster = path ? raster_load(format, path, &err) : NULL;
-    if (path && !raster)
-        parser_relay(parser, heights->at, &err);
-    return raster;
-}
-
 /* Where errors do not end the parse, a flat field stands for a picture that
  * cannot be read. */
 static void picture_heights(struct parser *parser, struct frame *frame)
 {
     const struct heights *heights = frame->more;
     struct brume_shape *shape = &((struct object *)frame->node)->shape;
-    struct raster *raster = read_picture(parser, heights);
+    struct raster *raster = load_raster(parser, heights->format, heights->name,
+                                        heights->at);
     size_t pixels = 4;
 
     shape->steps[0] = shape->steps[1] = 2;

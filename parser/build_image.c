@@ -34,7 +34,7 @@ enum {
         PARAM_OWN("gamma", 0, 1, IMAGE_GAMMA),                                 \
         PARAM_OWN("srgb", 0, 0, IMAGE_SRGB),                                   \
         PARAM_OWN("premultiplied", 0, 1, IMAGE_PREMULTIPLIED),                 \
-        IMAGE_ROW("map_type", PARAM_INTEGER, 0, 0, 7, map_type),               \
+        IMAGE_ROW("map_type", PARAM_INTEGER, 0, 0, 5, map_type),               \
         IMAGE_ROW("interpolate", PARAM_INTEGER, 0, 0, 4, interpolate),         \
         IMAGE_WORD("once", PARAM_SWITCH, 1, once)
 
@@ -49,7 +49,7 @@ static const struct param image_pattern_rows[] = {
     IMAGE_WORD("use_alpha", PARAM_MARK, IMAGE_USE_ALPHA, use),
     IMAGE_WORD("use_color", PARAM_MARK, IMAGE_USE_COLOR, use),
     IMAGE_WORD("use_colour", PARAM_MARK, IMAGE_USE_COLOR, use),
-    IMAGE_WORD("use_index", PARAM_MARK, IMAGE_USE_INDEX, use),
+    PARAM_WITHOUT("use_index", "of a palette the colors count, as in POV-Ray"),
     {0}};
 static const struct param bump_map_rows[] = {
     IMAGE_ROWS,
@@ -223,10 +223,18 @@ static void close_image(struct parser *parser, struct frame *frame,
 {
     const struct image *image = frame->node;
 
+    if (image->map_type > 2 && image->map_type != 5)
+        parser_mistake(parser, at, "'map_type' must be 0, 1, 2 or 5");
     if (image->function && image->function->columns == 0)
         parser_mistake(parser, at,
                        "a function as an image needs its width "
                        "and height");
+    if (image->function &&
+        (image->function->parameters != 3 ||
+         (image->function->results != 1 && image->function->results != 5)))
+        parser_mistake(parser, at,
+                       "a picture's function takes x, y and z and gives a "
+                       "float or a color");
     if (image->name.text)
         build_has_file(parser, image->name, image->at);
     else if (!image->function)

@@ -416,6 +416,9 @@ int build_send_interior(struct parser *parser, const struct media *const *media,
  * three results are its colour. -1: core cannot do it. */
 int build_density_function(struct parser *parser,
                            const struct density *density);
+/* The function of a colour and the one below it, each of five numbers. -1:
+ * `err`. */
+int build_cover(struct parser *parser, struct brume_error *err);
 /* The colours of a texture, with its own maps, as a function of 3 parameters
  * with 5 results. -1: core cannot do it. */
 int build_texture_function(struct parser *parser,

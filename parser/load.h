@@ -1,4 +1,4 @@
-/* load.h - data files to core: density grids and meshes.
+/* load.h - data files to core: density grids, meshes and pictures.
  *
  * Each grid of a file and each mesh is read once for a scene, however many
  * statements name it. What is wrong is reported at the file's name in the
@@ -11,6 +11,8 @@
 
 struct loaded_grid;
 struct loaded_mesh;
+struct loaded_image;
+struct raster;
 
 /* A file as the scene names it: `vdb "file" "grid" interpolate N fit up z`. */
 struct data_file {
@@ -26,6 +28,7 @@ struct data_file data_file(const char *format, struct string name,
 struct loader {
     struct loaded_grid *grids;
     struct loaded_mesh *meshes;
+    struct loaded_image *images;
 };
 
 /* Fills the grid of `out` and the map from the grid's own world to that of
@@ -34,5 +37,20 @@ bool load_density(struct parser *parser, const struct data_file *file,
                   enum vdb_role role, struct pattern *out);
 struct model_mesh *load_mesh(struct parser *parser,
                              const struct data_file *file);
+
+/* load_image.c. A picture by the word of its format; NULL: by its name's
+ * ending. NULL: reported; where all errors are told a missing file is only
+ * warned of. */
+struct raster *load_raster(struct parser *parser, const char *format,
+                           struct string name, struct location at);
+/* How core shall use the picture of an image_map or image_pattern. False: it
+ * has none, which is reported. */
+bool load_image(struct parser *parser, const struct pattern *pattern,
+                struct brume_image_use *use);
+/* What a function that stands for a picture gives in a cell: at its middle,
+ * rows from the top, as POV-Ray makes a picture of it. False: reported. */
+bool load_cell(struct parser *parser, const struct function *function,
+               int column, int row, double out[BRUME_MAX_RESULTS],
+               struct location at);
 
 #endif

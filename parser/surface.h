@@ -89,7 +89,7 @@ struct warp {
 };
 
 /* A bitmap as the scene names it; or a function in its place. */
-struct image_palette {
+struct image_palette {          /* the last one first                      */
     bool transmit;              /* else filter                             */
     int index;                  /* -1: all                                 */
     double amount;
@@ -107,6 +107,8 @@ struct image {
     double gamma;               /* 0: as the format has it; -1: sRGB       */
     double bump_size;
     const struct image_palette *palette;
+    bool clear, indexed;        /* as loaded: it has an alpha, a palette   */
+    int id;                     /* in core, plus 1; 0: not yet, -1: none   */
 };
 
 enum image_use { IMAGE_USE_DEFAULT, IMAGE_USE_INDEX, IMAGE_USE_COLOR,

@@ -17,6 +17,7 @@
 #ifndef PHYSICS_DOUBLE
 #include "core/physics/grid.h"
 #endif
+#include "core/physics/image.h"
 #include "core/physics/internal.h"
 #include "core/physics/machine_code.h"
 #include "core/physics/pattern.h"
@@ -77,8 +78,9 @@
  * that many registers from dst on; v a value, r a register, j a distance to
  * jump forward, l one to loop back, f a function, n a plain number, - none.
  * Of what has a form of its own, i is the first argument of an internal
- * function; in the pool p are 12 numbers, 4 are 4, s is a spline, w the
- * numbers of a warp, m of a pattern, b a map and t a table of functions. */
+ * function; in the pool p are 12 numbers, 4 are 4, g those of a picture, s is
+ * a spline, w the numbers of a warp, m of a pattern, b a map and t a table of
+ * functions. */
 #define MACHINE_OTHER(X)                                                      \
     X(RETURN, "-vn-")       /* b results: one is a, more are registers a...*/ \
     X(CALL, "-f--")         /* frame at dst                                */ \
@@ -94,6 +96,7 @@
     X(PATTERN, "3m--")      /* dst = pattern of kind c at the point there  */ \
     X(GRID, "3p--")         /* dst = grid c at the point there, to whose       \
                                index space the 12 numbers lead             */ \
+    X(IMAGE, "5g--")        /* dst... = picture c at the point there       */ \
     X(WAVE, "14v-")         /* of type, exponent, frequency and phase      */ \
     X(BLEND, "-bv-")        /* dst... = the values of a map at b           */ \
     X(CHOOSE, "-bv-")       /* dst... = those of its entry number b        */ \
@@ -120,6 +123,8 @@ typedef struct {
     const real *pool;
     const void *grids;      /* in float the flat_scene, in double the host's
                                array of struct grid (lib/grid.h)           */
+    const flat_image *images;
+    const float *texels;
 } machine;
 
 /* The value of a grid at a point of its index space. */
@@ -278,6 +283,10 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
         case MACHINE_GRID:
             machine_transform(m->pool + i->a, r + i->dst);
             r[i->dst] = machine_grid(m, i->c, machine_point(r + i->dst));
+            break;
+        case MACHINE_IMAGE:
+            image_lookup(m->images + i->c, m->texels, m->pool + i->a,
+                         machine_point(r + i->dst), r + i->dst);
             break;
         case MACHINE_WAVE:
             r[i->dst] = machine_wave(m->pool + i->a,

@@ -23,4 +23,11 @@ typedef struct {
     int16_t calls;          /* depth of its calls, 0 if it calls none      */
 } machine_function;
 
+/* A picture: rows of texels from the top, `channels` floats each: grey; grey
+ * and transmit; red, green, blue; the same and transmit; or with filter too. */
+typedef struct {
+    int32_t width, height, channels;
+    uint64_t texel;         /* the place of its first number               */
+} flat_image;
+
 #endif

@@ -229,6 +229,8 @@ typedef struct {
     X(double, numbers)                                                        \
     X(machine_instruction, code)    /* of functions */                        \
     X(machine_function, functions)                                            \
+    X(flat_image, images)                                                     \
+    X(float, texels)                                                          \
     X(float, pool)                                                            \
     X(double, exact_pool)       /* of queries */                              \
     X(flat_material, materials)                                               \

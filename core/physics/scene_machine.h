@@ -11,6 +11,8 @@ HD machine scene_machine(const flat_scene *s)
     m.functions = s->functions;
     m.pool = REAL_CHOOSE(s->exact_pool, s->pool);
     m.grids = REAL_CHOOSE(s->host_grids, s);
+    m.images = s->images;
+    m.texels = s->texels;
     return m;
 }
 

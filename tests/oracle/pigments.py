@@ -90,13 +90,11 @@ pigment { pavement number_of_sides 4 number_of_tiles 6 pattern 30 }
 POINTS = 5
 
 
-def main():
-    random.seed(3)
-    points = [[round(random.uniform(-3, 3), 3) for _ in "xyz"]
-              for _ in range(POINTS)]
-    scene = ["#version 3.7;", '#fopen F "values" write',
-             f"#declare B = {BASE}"]
-    for i, body in enumerate(BODIES):
+def measure(bodies, points, *switches):
+    """Prints bodies and what they give at the points."""
+    scene = ["#version 3.7;", "global_settings { assumed_gamma 1 }",
+             '#fopen F "values" write', f"#declare B = {BASE}"]
+    for i, body in enumerate(bodies):
         terms = 5 if body.startswith("pigment") else 1
         scene.append(f"#declare G{i} = function {{ {body} }}")
         for x, y, z in points:
@@ -107,13 +105,21 @@ def main():
                          '"\\n")')
     with tempfile.TemporaryDirectory() as folder:
         open(f"{folder}/a.pov", "w").write("\n".join(scene) + "\n#fclose F\n")
-        subprocess.run(["povray", "a.pov", "-D", "-F", "+W4", "+H4", "-GA"],
+        subprocess.run(["povray", "a.pov", "-D", "-F", "+W4", "+H4", "-GA",
+                        *switches],
                        cwd=folder, check=True, stderr=subprocess.DEVNULL)
         values = iter(open(f"{folder}/values").read().splitlines())
-    for body in BODIES:
+    for body in bodies:
         print(body)
         for point in points:
             print(*point, next(values))
 
 
-main()
+def main():
+    random.seed(3)
+    measure(BODIES, [[round(random.uniform(-3, 3), 3) for _ in "xyz"]
+                     for _ in range(POINTS)])
+
+
+if __name__ == "__main__":
+    main()

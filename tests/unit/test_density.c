@@ -312,7 +312,10 @@ static void test_grid_float(void **state)
     assert_true(s->pool_count <= 256);
     for (size_t i = 0; i < s->pool_count; i++)
         pool[i] = (float)s->pool[i];
-    machine m = {s->code, s->functions, pool, &flat->view};
+    machine m = {.code = s->code,
+                 .functions = s->functions,
+                 .pool = pool,
+                 .grids = &flat->view};
     uint64_t seed = 3;
     for (int k = 0; k < 3000; k++) {
         double p[3];

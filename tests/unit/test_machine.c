@@ -128,7 +128,10 @@ static machine in_single(const brume_scene *s, float **pool)
     *pool = malloc((s->pool_count + 1) * sizeof **pool);
     for (size_t i = 0; i < s->pool_count; i++)
         (*pool)[i] = (float)s->pool[i];
-    machine m = {s->code, s->functions, *pool, NULL};
+    machine m = {.code = s->code,
+                 .functions = s->functions,
+                 .pool = *pool,
+                 .grids = NULL};
     return m;
 }
 

@@ -38,7 +38,10 @@ static void float_agrees(const brume_scene *s, int id, const double *p,
     float r[MACHINE_REGISTERS];
     for (size_t i = 0; i < s->pool_count; i++)
         pool[i] = (float)s->pool[i];
-    machine m = {s->code, s->functions, pool, NULL};
+    machine m = {.code = s->code,
+                 .functions = s->functions,
+                 .pool = pool,
+                 .grids = NULL};
     for (int i = 0; i < 3; i++)
         r[i] = (float)p[i];
     assert_true(machine_run(&m, id, r));

@@ -29,7 +29,10 @@ static const char head[] =
 /* The scene in `text` is read without an error. */
 static void holds(const char *text, const char *body)
 {
+    const char *const library = "tests/data";
     struct parse_input in = {.path = "scene.pov",
+                             .library = &library,
+                             .libraries = 1,
                              .text = text,
                              .length = strlen(text),
                              .ambient = PARSE_AMBIENT_INIT};
@@ -67,13 +70,14 @@ static void check_point(char *text, const char *line)
         v[5], v[6], v[7]);
 }
 
-static void functions_give_what_pov_ray_prints(void **state)
+/* The bodies of a file in the form that oracle/pigments.py gives it; how
+ * many. */
+static int check_file(const char *path)
 {
     static char text[MOST];
     char line[LINE], body[LINE] = "";
-    FILE *file = fopen("tests/data/pigments.txt", "r");
+    FILE *file = fopen(path, "r");
     int bodies = 0;
-    (void)state;
 
     assert_non_null(file);
     while (fgets(line, sizeof line, file)) {
@@ -89,7 +93,20 @@ static void functions_give_what_pov_ray_prints(void **state)
     }
     fclose(file);
     holds(text, body);
-    assert_true(bodies > 60);
+    return bodies;
+}
+
+static void functions_give_what_pov_ray_prints(void **state)
+{
+    (void)state;
+    assert_true(check_file("tests/data/pigments.txt") > 60);
+}
+
+/* By oracle/images.py. */
+static void pictures_give_what_pov_ray_prints(void **state)
+{
+    (void)state;
+    assert_true(check_file("tests/data/images.txt") > 30);
 }
 
 /* ---- what is drawn ----------------------------------------------------- */
@@ -138,6 +155,19 @@ static void pigments_are_drawn(void **state)
                          "  checker rgb x rgb y scale 2 translate y } }";
     (void)state;
 
+    const char *picture = "pigment { image_map { png \"tests/data/dots.png\" }"
+                          "  scale <3, 2, 1> }";
+    const char *grid = "pigment { density_file df3 \"tests/data/cube.df3\""
+                       "  scale 4 }";
+    /* The lower row is blue, white ..., the upper one begins with red. */
+    check_pixel(picture, 0, 0, 0, 0, 1);
+    check_pixel(picture, 1, 0, 1, 1, 1);
+    check_pixel(picture, 0, 1, 1, 0, 0);
+    check_pixel(picture, 3, 3, 1, 0, 0);
+    /* Samples 0, 40, 80, 120 of the cube's near half. */
+    check_pixel(grid, 0, 0, 0, 0, 0);
+    check_pixel(grid, 3, 0, 40 / 255.0, 40 / 255.0, 40 / 255.0);
+    check_pixel(grid, 0, 3, 80 / 255.0, 80 / 255.0, 80 / 255.0);
     check_pixel(steps, 2, 0, 1, 0, 0);
     check_pixel(steps, 1, 1, 0, 1, 0);
     check_pixel(steps, 3, 2, 0, 0, 1);
@@ -188,6 +218,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(functions_give_what_pov_ray_prints),
+        cmocka_unit_test(pictures_give_what_pov_ray_prints),
         cmocka_unit_test(pigments_are_drawn),
         cmocka_unit_test(textures_are_drawn),
         cmocka_unit_test(maps_nest_deep),

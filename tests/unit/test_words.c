@@ -119,6 +119,8 @@ static uint64_t hash_scene(const brume_scene *scene,
     MIX_LIST(&hash, scene, code);
     MIX_LIST(&hash, scene, functions);
     MIX_LIST(&hash, scene, pool);
+    MIX_LIST(&hash, scene, images);
+    MIX_LIST(&hash, scene, texels);
     for (size_t i = 0; i < scene->shapes_count; i++)
         mix_shape(&hash, &scene->shapes[i]);
     for (size_t i = 0; i < scene->meshes_count; i++)

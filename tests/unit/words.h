@@ -177,10 +177,10 @@ static const struct words_scene words_scenes[] = {
              WORDS_WORN("pigment { @pigment_pattern { % }@ }")),
     WORDS_IN(OBJECT_PATTERN,
              WORDS_WORN("pigment { @object { box { 0, 1 } rgb x rgb y }@ }")),
-    WORDS_LACK(IMAGE_MAP, "pigments of some patterns",
+    WORDS_IN(IMAGE_MAP,
                WORDS_WORN("pigment { @image_map { png \"tests/data/dots.png\" "
                           "% }@ }")),
-    WORDS_LACK(IMAGE_PATTERN, "pigments of some patterns",
+    WORDS_IN(IMAGE_PATTERN,
                WORDS_WORN("pigment { @image_pattern { png "
                           "\"tests/data/dots.png\" % }@ }")),
     WORDS_LACK(BUMP_MAP, "normals",
@@ -282,6 +282,22 @@ static const struct words_scene words_scenes[] = {
 #define WORDS_NO_HEIGHTS(word)                                                 \
     WORDS_TOLD(HEIGHT_FIELD, word, word " \"tests/data/dots.png\"",            \
                "height_field { % }", "'" word "' are not supported")
+#define WORDS_READ(kind, word)                                                \
+    WORDS_USE(kind, word, word " \"tests/data/dots." word "\"",               \
+              "png \"tests/data/dots_alpha.png\"")
+#define WORDS_UNREAD(kind, word)                                              \
+    WORDS_TOLD(kind, word, word " \"tests/data/dots.png\"", NULL,             \
+               "'" word "' are not read yet")
+#define WORDS_DRAWN(kind)                                                     \
+    WORDS_READ(kind, "png"), WORDS_READ(kind, "ppm"),                         \
+        WORDS_READ(kind, "tga"), WORDS_READ(kind, "pgm"),                     \
+        WORDS_UNREAD(kind, "bmp"), WORDS_UNREAD(kind, "gif"),                 \
+        WORDS_UNREAD(kind, "hdr"), WORDS_UNREAD(kind, "iff"),                 \
+        WORDS_UNREAD(kind, "jpeg"), WORDS_UNREAD(kind, "sys"),                \
+        WORDS_UNREAD(kind, "tiff"),                                           \
+        WORDS_USE(kind, "exr", "exr \"tests/data/tiled_half.exr\"", NULL),    \
+        WORDS_USE(kind, "interpolate", "interpolate 2", NULL),                \
+        WORDS_USE(kind, "map_type", "map_type 2", NULL)
 /* Pictures that are not drawn are not read either. */
 #define WORDS_PICTURE(kind, word)                                              \
     WORDS_USE(kind, word, word " \"tests/data/dots.png\"", NULL)
@@ -293,7 +309,7 @@ static const struct words_scene words_scenes[] = {
         WORDS_PICTURE(kind, "ppm"), WORDS_PICTURE(kind, "sys"),                \
         WORDS_PICTURE(kind, "tga"), WORDS_PICTURE(kind, "tiff"),               \
         WORDS_USE(kind, "interpolate", "interpolate 2", NULL),                 \
-        WORDS_USE(kind, "all", "filter all 0.5", NULL)
+        WORDS_USE(kind, "map_type", "map_type 2", NULL)
 
 static const struct words_use words_uses[] = {
     WORDS_USE(PIGMENT, "", "bozo", NULL),
@@ -409,10 +425,6 @@ static const struct words_use words_uses[] = {
                           "tile2 texture { pigment { rgb y } } } }"),
                "by patterns"),
     WORDS_TOLD(DENSITY, "(tiles)", "bozo", NULL, ""),
-    WORDS_TOLD(PIGMENT, "fit", "density_file vdb \"tests/data/tiles.vdb\" fit",
-               NULL, "pigments of some patterns"),
-    WORDS_TOLD(PIGMENT, "up", "density_file vdb \"tests/data/tiles.vdb\" up z",
-               NULL, "pigments of some patterns"),
     WORDS_ANY("average", "average " WORDS_AVERAGE, "bozo"),
     WORDS_ANY("density_file", "density_file vdb \"tests/data/tiles.vdb\"",
               NULL),
@@ -508,8 +520,24 @@ static const struct words_use words_uses[] = {
                           "{ x % } }"),
                "pigments of some patterns"),
 
-    WORDS_PICTURES(IMAGE_MAP),
-    WORDS_PICTURES(IMAGE_PATTERN),
+    WORDS_DRAWN(IMAGE_MAP),
+    WORDS_DRAWN(IMAGE_PATTERN),
+    WORDS_USE(IMAGE_MAP, "filter", "filter all 0.5", NULL),
+    WORDS_USE(IMAGE_MAP, "transmit", "transmit all 0.5", NULL),
+    WORDS_USE(IMAGE_MAP, "all", "filter all 0.5", NULL),
+    WORDS_USE(IMAGE_MAP, "gamma", "gamma 3", NULL),
+    WORDS_USE(IMAGE_MAP, "srgb", "gamma srgb", "gamma 1"),
+    WORDS_USE(IMAGE_PATTERN, "gamma", "gamma 3", NULL),
+    WORDS_USE(IMAGE_PATTERN, "srgb", "gamma srgb", NULL),
+    WORDS_THERE(IMAGE_MAP, "premultiplied", "premultiplied on", NULL,
+                WORDS_WORN("pigment { image_map { png "
+                           "\"tests/data/dots_alpha.png\" % } }")),
+    WORDS_THERE(IMAGE_PATTERN, "premultiplied", "premultiplied on", NULL,
+                WORDS_WORN("pigment { image_pattern { png "
+                           "\"tests/data/dots_alpha.png\" % } }")),
+    WORDS_USE(IMAGE_PATTERN, "use_color", "use_alpha use_color", "use_alpha"),
+    WORDS_USE(IMAGE_PATTERN, "use_colour", "use_alpha use_colour",
+              "use_alpha"),
     WORDS_PICTURES(BUMP_MAP),
     WORDS_PICTURES(MATERIAL_MAP),
     WORDS_THERE(TILES, "tile2", "texture { pigment { rgb x } } tile2",
