@@ -44,11 +44,12 @@ C       := $(CC) -std=c11 $(COMMON) -Wmissing-prototypes -Wstrict-prototypes
 CPP     := $(CXX) -std=c++17 $(COMMON)
 CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
 
-PACKAGES := OpenEXR libpng jansson freetype2 zlib blosc
+PACKAGES := OpenEXR libpng libjpeg jansson freetype2 zlib blosc
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE
 C       += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
-OTHER_LIBS := -lm -pthread
+# Nor for giflib.
+OTHER_LIBS := -lgif -lm -pthread
 LIBS     = $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
 # What lib/vdb_module.cc uses; Debian has no .pc file for OpenVDB.
 VDB_LIBS := -lopenvdb -ltbb

@@ -1,6 +1,8 @@
 #include "lib/raster.h"
 #include <stdlib.h>
 #include <string.h>
+#include "lib/gif.h"
+#include "lib/jpeg.h"
 #include "lib/memory.h"
 #include "lib/png.h"
 #include "lib/pnm.h"
@@ -9,8 +11,9 @@
 static const struct format {
     const char *word;
     struct raster *(*load)(const char *path, struct brume_error *err);
-} formats[] = {
-    {"png", png_load}, {"pgm", pnm_load}, {"ppm", pnm_load}, {"tga", tga_load}};
+} formats[] = {{"gif", gif_load}, {"jpeg", jpeg_load}, {"jpg", jpeg_load},
+               {"pot", pot_load}, {"png", png_load},   {"pgm", pnm_load},
+               {"ppm", pnm_load}, {"tga", tga_load}};
 
 enum { FORMATS = sizeof formats / sizeof *formats };
 

@@ -33,8 +33,9 @@ struct raster *raster_new(long long width, long long height, int channels,
                           struct brume_error *err);
 void raster_free(struct raster *raster);
 
-/* Reads a file of a format by its word in the scene language: png, pgm, ppm
- * (either kind), tga. NULL with err set. */
+/* Reads a file of a format by its word in the scene language, or a usual
+ * ending: gif, jpeg, jpg, pgm, png, pot, ppm (either kind), tga. NULL with err
+ * set. */
 struct raster *raster_load(const char *format, const char *path,
                            struct brume_error *err);
 /* Whether it reads such files. */

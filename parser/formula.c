@@ -384,9 +384,9 @@ static void made(struct parser *parser, int id, struct location at,
     struct formula_scope *scope = parser->formula;
     struct function *function = parser_alloc(parser, sizeof *function);
 
-    if (id < 0)
+    if (id < 0 && err->code != BRUME_OK)
         parser_relay(parser, at, err);
-    if (!function || parser->failed)
+    if (id < 0 || !function || parser->failed)
         return;
     function->id = id;
     function->columns = scope->columns;

@@ -48,8 +48,8 @@ struct raster *load_raster(struct parser *parser, const char *format,
         format = ending;
     if (!raster_reads(format)) {
         parser_mistake(parser, at,
-                       "pictures of format '%s' are not supported yet; png, "
-                       "pgm, ppm and tga are",
+                       "pictures of format '%s' are not supported yet; gif, "
+                       "jpeg, pgm, png, pot, ppm and tga are",
                        format);
         return NULL;
     }

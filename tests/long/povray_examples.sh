@@ -9,10 +9,8 @@ theirs=/usr/share/povray-3.7/include
 
 # Why each is not accepted yet:
 #   benchmark     a function of a pigment whose pattern is not drawn yet
-#   mtmand        a height field from a .pot
-#   slopemt       a pigment from a .jpg
 #   __empty cliche sort   cannot be used with POV-Ray either
-known='/(benchmark|mtmand|slopemt_3[67]|__empty|cliche|sort)\.(pov|ini)$'
+known='/(benchmark|__empty|cliche|sort)\.(pov|ini)$'
 
 cp -r "$examples" copy
 find copy -name '*.pov' ! -path '*/portfolio/*' >list

@@ -35,6 +35,10 @@ pigment { image_map { png "dots_gamma.png" } }
 pigment { image_map { png "dots_gamma.png" gamma srgb } }
 pigment { image_map { png "dots.png" } scale 2 rotate 30 translate x }
 pigment { image_map { png "dots.png" } warp { repeat x*.5 } turbulence .1 }
+pigment { image_map { jpeg "dots.jpeg" } }
+pigment { image_map { gif "dots.gif" } }
+pigment { image_map { gif "dots.gif" gamma 1 interpolate 2 filter 1 .4 } }
+pigment { image_pattern { gif "dots.gif" use_index } }
 pigment { image_pattern { png "dots.png" } }
 pigment { image_pattern { png "dots.png" gamma 2 } sine_wave frequency 2 }
 pigment { image_pattern { png "dots.png" interpolate 2 } color_map { [0 rgb x] [1 rgb y] } }

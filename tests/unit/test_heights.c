@@ -90,8 +90,8 @@ static void test_heights__errors(void **state)
     (void)state;
     PUT("broken", "P5 9 9 255\n\1\2\3");
     PUT("a.PGM", "P5 2 2 255\n\12\74\0\377");
-    expect_error("height_field { gif \"a.PGM\" }", BRUME_ERR_SCENE, 1, 20,
-                 "format 'gif' are not supported yet");
+    expect_error("height_field { bmp \"a.PGM\" }", BRUME_ERR_SCENE, 1, 20,
+                 "format 'bmp' are not supported yet");
     expect_error("height_field { \"broken\" }", BRUME_ERR_SCENE, 1, 16,
                  "format '' are not supported yet");
     expect_error("height_field { pgm \"broken\" }", BRUME_ERR_FILE, 1, 20,

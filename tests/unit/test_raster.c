@@ -1,4 +1,5 @@
-/* test_raster.c - pictures from PNG, PNM and Targa files, whole and broken. */
+/* test_raster.c - pictures from PNG, PNM, Targa, GIF and JPEG files, whole and
+ * broken. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -179,9 +180,119 @@ static void test_raster__errors(void **state)
     expect("pgm", TEXT("P5 0 1 255\n\1"), "0 x 1 pixels");
     expect("tga", huge, sizeof huge, "ends too early");
     expect("tga", TEXT("P5 99999 99999 255\n\1"), "none of the kinds");
-    expect("gif", TEXT("GIF"), "format 'gif'");
-    assert_false(raster_reads("gif"));
+    expect("hdr", TEXT("HDR"), "format 'hdr'");
+    assert_false(raster_reads("hdr"));
     assert_true(raster_reads("ppm"));
+}
+
+/* ---- GIF and JPEG ------------------------------------------------------- */
+
+static size_t read_file(const char *name, unsigned char bytes[2048])
+{
+    FILE *f = fopen(name, "rb");
+    size_t size;
+
+    assert_non_null(f);
+    size = fread(bytes, 1, 2048, f);
+    fclose(f);
+    return size;
+}
+
+/* What giflib wrote of these numbers, one row after the other and interlaced;
+ * colour i is (50 i + 20, 200 - 45 i, 25 i i). */
+static void test_gif__numbers_and_palette(void **state)
+{
+    const uint16_t sample[] = {0, 1, 2, 3, 3, 3, 0, 1, 2, 0, 1, 2};
+    struct brume_error err = {0};
+    struct raster *raster = raster_load("gif", "tests/data/dots.gif", &err);
+    (void)state;
+
+    assert_non_null(raster);
+    assert_int_equal(raster->width, 4);
+    assert_int_equal(raster->height, 3);
+    assert_int_equal(raster->channels, 1);
+    assert_int_equal(raster->colors, 4);
+    assert_memory_equal(raster->sample, sample, sizeof sample);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(raster->palette[i][0], 50 * i + 20);
+        assert_int_equal(raster->palette[i][1], 200 - 45 * i);
+        assert_int_equal(raster->palette[i][2], 25 * i * i);
+    }
+    raster_free(raster);
+    raster = raster_load("gif", "tests/data/laced.gif", &err);
+    assert_non_null(raster);
+    assert_int_equal(raster->height, 9);
+    for (int i = 0; i < 27; i++)
+        assert_int_equal(raster->sample[i], i / 3 % 4);
+    raster_free(raster);
+}
+
+/* The halves 1 2 | 10 20 and 255 0 | 255 7. */
+static void test_pot__halves(void **state)
+{
+    struct brume_error err = {0};
+    struct raster *raster = raster_load("pot", "tests/data/dots.pot", &err);
+    (void)state;
+
+    assert_non_null(raster);
+    assert_int_equal(raster->width, 2);
+    assert_int_equal(raster->colors, 0);
+    assert_int_equal(raster->max, 65535);
+    assert_int_equal(raster->sample[0], 256 + 10);
+    assert_int_equal(raster->sample[1], 512 + 20);
+    assert_int_equal(raster->sample[2], 65535);
+    assert_int_equal(raster->sample[3], 7);
+    raster_free(raster);
+}
+
+/* What libjpeg wrote of (15 x, 30 y, 200 - 8 x), which it keeps but nearly. */
+static void test_jpeg__colors(void **state)
+{
+    struct brume_error err = {0};
+    struct raster *raster = raster_load("jpg", "tests/data/dots.jpeg", &err);
+    (void)state;
+
+    assert_non_null(raster);
+    assert_int_equal(raster->width, 16);
+    assert_int_equal(raster->height, 8);
+    assert_int_equal(raster->channels, 3);
+    for (int i = 0; i < 128; i++) {
+        const uint16_t *s = raster->sample + 3 * i;
+        int x = i % 16, y = i / 16;
+        assert_true(abs(s[0] - 15 * x) < 30);
+        assert_true(abs(s[1] - 30 * y) < 30);
+        assert_true(abs(s[2] - (200 - 8 * x)) < 30);
+    }
+    raster_free(raster);
+}
+
+/* A file that ends too early, or is something else, is refused. */
+static void test_gif_and_jpeg__broken(void **state)
+{
+    static const char *const files[][2] = {{"gif", "tests/data/dots.gif"},
+                                           {"gif", "tests/data/laced.gif"},
+                                           {"pot", "tests/data/dots.pot"},
+                                           {"jpeg", "tests/data/dots.jpeg"}};
+    unsigned char bytes[2048];
+    struct brume_error err;
+    (void)state;
+
+    for (int k = 0; k < 4; k++) {
+        size_t size = read_file(files[k][1], bytes);
+        for (size_t cut = 0; cut + 10 < size; cut++)
+            assert_null(load(files[k][0], bytes, cut, &err));
+        assert_int_equal(err.code, BRUME_ERR_FILE);
+        assert_non_null(strstr(err.text, path));
+        for (size_t i = 0; i < size; i++) {
+            bytes[i] ^= 0x5a;
+            raster_free(load(files[k][0], bytes, size, &err));
+            bytes[i] ^= 0x5a;
+        }
+    }
+    assert_null(raster_load("gif", "/nowhere/a.gif", &err));
+    err = (struct brume_error){0};
+    assert_null(raster_load("jpeg", "/nowhere/a.jpg", &err));
+    assert_int_equal(err.code, BRUME_ERR_FILE);
 }
 
 int main(void)
@@ -192,6 +303,10 @@ int main(void)
         cmocka_unit_test(test_png__palette),
         cmocka_unit_test(test_raster__broken_files_are_errors),
         cmocka_unit_test(test_raster__errors),
+        cmocka_unit_test(test_gif__numbers_and_palette),
+        cmocka_unit_test(test_pot__halves),
+        cmocka_unit_test(test_jpeg__colors),
+        cmocka_unit_test(test_gif_and_jpeg__broken),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -288,15 +288,14 @@ static const struct words_scene words_scenes[] = {
 #define WORDS_UNREAD(kind, word)                                              \
     WORDS_TOLD(kind, word, word " \"tests/data/dots.png\"", NULL,             \
                "'" word "' are not read yet")
-#define WORDS_DRAWN(kind)                                                     \
-    WORDS_READ(kind, "png"), WORDS_READ(kind, "ppm"),                         \
-        WORDS_READ(kind, "tga"), WORDS_READ(kind, "pgm"),                     \
-        WORDS_UNREAD(kind, "bmp"), WORDS_UNREAD(kind, "gif"),                 \
-        WORDS_UNREAD(kind, "hdr"), WORDS_UNREAD(kind, "iff"),                 \
-        WORDS_UNREAD(kind, "jpeg"), WORDS_UNREAD(kind, "sys"),                \
-        WORDS_UNREAD(kind, "tiff"),                                           \
-        WORDS_USE(kind, "exr", "exr \"tests/data/tiled_half.exr\"", NULL),    \
-        WORDS_USE(kind, "interpolate", "interpolate 2", NULL),                \
+#define WORDS_DRAWN(kind)                                                      \
+    WORDS_READ(kind, "png"), WORDS_READ(kind, "ppm"), WORDS_READ(kind, "tga"), \
+        WORDS_READ(kind, "pgm"), WORDS_READ(kind, "gif"),                      \
+        WORDS_READ(kind, "jpeg"), WORDS_UNREAD(kind, "bmp"),                   \
+        WORDS_UNREAD(kind, "hdr"), WORDS_UNREAD(kind, "iff"),                  \
+        WORDS_UNREAD(kind, "sys"), WORDS_UNREAD(kind, "tiff"),                 \
+        WORDS_USE(kind, "exr", "exr \"tests/data/tiled_half.exr\"", NULL),     \
+        WORDS_USE(kind, "interpolate", "interpolate 2", NULL),                 \
         WORDS_USE(kind, "map_type", "map_type 2", NULL)
 /* Pictures that are not drawn are not read either. */
 #define WORDS_PICTURE(kind, word)                                              \
@@ -380,11 +379,11 @@ static const struct words_use words_uses[] = {
     WORDS_HEIGHTS("tga", "dots.tga"),
     WORDS_NO_HEIGHTS("bmp"),
     WORDS_NO_HEIGHTS("exr"),
-    WORDS_NO_HEIGHTS("gif"),
+    WORDS_HEIGHTS("gif", "dots.gif"),
     WORDS_NO_HEIGHTS("hdr"),
     WORDS_NO_HEIGHTS("iff"),
-    WORDS_NO_HEIGHTS("jpeg"),
-    WORDS_NO_HEIGHTS("pot"),
+    WORDS_HEIGHTS("jpeg", "dots.jpeg"),
+    WORDS_HEIGHTS("pot", "dots.pot"),
     WORDS_NO_HEIGHTS("sys"),
     WORDS_NO_HEIGHTS("tiff"),
     WORDS_THERE(HEIGHT_FIELD, "gamma", "gamma 2", NULL,
