@@ -62,7 +62,7 @@ from ase.io.pov import get_bondpairs
 atoms = molecule('C6H6')
 atoms.center(vacuum=1.0)
 settings = dict(canvas_width=60, bondatoms=get_bondpairs(atoms, 1.1),
-                textures=['ase3'] * len(atoms), area_light=None,
+                textures=['ase3'] * len(atoms),
                 point_lights=[[(2.0, 3.0, 40.0), 'White']])
 picture = write('benzene.pov', atoms, rotation='10x,20y',
                 povray_settings=settings).render()
