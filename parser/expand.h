@@ -163,8 +163,16 @@ static inline void expand_skip(const struct expander *expander)
     cursor_skip(&expand_frame(expander)->cursor);
 }
 
-/* Asks now and then whether to go on: of the clock and of the caller. */
-bool expand_tick(struct expander *expander, struct location at);
+/* Asks the clock and the caller whether to go on. */
+bool expand_may_go_on(struct expander *expander, struct location at);
+
+/* The same, now and then. */
+static inline bool expand_tick(struct expander *expander, struct location at)
+{
+    enum { CHECK = 4096 };
+    return ++expander->ticks % CHECK != 0 || expand_may_go_on(expander, at);
+}
+
 /* Takes the next token if it is of that kind. */
 bool expand_take(struct expander *expander, int kind);
 /* Takes the next token, which must be of that kind. */

@@ -185,14 +185,10 @@ static bool finish(struct expander *expander)
     }
 }
 
-bool expand_tick(struct expander *expander, struct location at)
+bool expand_may_go_on(struct expander *expander, struct location at)
 {
-    enum { CHECK = 4096 };
     struct parser *parser = expander->parser;
     const struct parse_input *in = parser->in;
-    if (++expander->ticks % CHECK != 0) {
-        return true;
-    }
     if (in->stopped && in->stopped(in->user)) {
         return parser_fail(parser, BRUME_STOPPED, at, NULL,
                            "stopped while "

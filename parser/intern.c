@@ -11,18 +11,23 @@ struct intern_entry {
 
 /* FNV-1a (Fowler, Noll, Vo) with eight bytes for one, which sixty-four bits of
  * hash allow; the fold lets the low bits depend on the high ones. */
+static uint64_t mix(uint64_t hash, const void *bytes, size_t size)
+{
+    uint64_t word = 0;
+
+    memcpy(&word, bytes, size);
+    hash = (hash ^ word) * UINT64_C(0x100000001b3);
+    return hash ^ hash >> 32;
+}
+
 static uint64_t hash_of(const void *bytes, size_t size)
 {
     const unsigned char *byte = bytes;
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
 
-    for (size_t i = 0; i < size; i += 8) {
-        uint64_t word = 0;
-        memcpy(&word, byte + i, size - i < 8 ? size - i : 8);
-        hash = (hash ^ word) * UINT64_C(0x100000001b3);
-        hash ^= hash >> 32;
-    }
-    return hash;
+    for (; size >= 8; size -= 8, byte += 8)
+        hash = mix(hash, byte, 8);
+    return size > 0 ? mix(hash, byte, size) : hash;
 }
 
 struct intern_key intern_key(const void *bytes, size_t size)
