@@ -139,6 +139,11 @@ static bool measure(struct nvdb_file *f, struct nvdb_record *r)
 {
     unsigned char head[24];
     uint64_t length = (uint64_t)f->bytes.length, held = 0;
+    if (r->codec > BLOSC)
+        return brume_fail_file(f->bytes.err, f->bytes.path,
+                               "grid '%s' is packed by a codec of number %u; "
+                               "none, ZIP and Blosc can be read",
+                               r->entry.name, r->codec);
     r->at = here(f);
     r->packed = r->codec == PLAIN ? r->size : 0;
     while (r->codec != PLAIN && held < r->size) {
@@ -282,13 +287,6 @@ static bool unpack(struct nvdb_file *f, const struct nvdb_record *r,
 
 unsigned char *nvdb_file_grid(struct nvdb_file *f, const struct nvdb_record *r)
 {
-    if (r->codec > BLOSC) {
-        brume_fail_file(f->bytes.err, f->bytes.path,
-                        "grid '%s' is packed by a codec of number %u; none, "
-                        "ZIP and Blosc can be read",
-                        r->entry.name, r->codec);
-        return NULL;
-    }
     bool sound = r->codec == PLAIN ? r->size == r->packed
                                    : r->size / MAX_RATIO <= r->packed;
     if (!sound || r->size < NVDB_GRID + NVDB_TREE) {

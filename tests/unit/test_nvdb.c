@@ -237,6 +237,81 @@ static void test_nvdb__damage_is_named(void **state)
     }
 }
 
+/* warp.nvdb, unpacked: a header and metadata that say so, then its grid. */
+static unsigned char *plain(size_t *size)
+{
+    enum { FRONT = 16 + 176 + 1 };
+    unsigned char *grid = bare(DATA("warp.nvdb"), 0, size);
+    unsigned char *bytes = malloc(FRONT + *size);
+    assert_non_null(bytes);
+    FILE *f = fopen(DATA("warp.nvdb"), "rb");
+    assert_non_null(f);
+    assert_int_equal(fread(bytes, 1, FRONT, f), FRONT);
+    fclose(f);
+    bytes[14] = bytes[16 + 168] = 0; /* the codec                          */
+    memcpy(bytes + FRONT, grid, *size);
+    *size += FRONT;
+    free(grid);
+    return bytes;
+}
+
+static void test_nvdb__damaged_segments_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t at;
+        unsigned char value;
+        const char *word;
+    } cases[] = {
+        {16 + 5, 1, "outside of it"}, /* the size, by 2^40                 */
+        {16 + 32, 2, "not of the type"},   {16 + 168, 3, "codec of number 3"},
+        {16 + 137, 2, "name is too long"}, {8 + 3, 0x05, "versions 32.x"},
+    };
+    size_t size;
+    unsigned char *bytes = plain(&size);
+    write_file(bytes, size);
+    grid_free(load(path, NULL));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        unsigned char old = bytes[cases[i].at];
+        bytes[cases[i].at] = cases[i].value;
+        write_file(bytes, size);
+        refused(path, NULL, VDB_DENSITY, cases[i].word);
+        bytes[cases[i].at] = old;
+    }
+    free(bytes);
+}
+
+/* A header that says 4097, and metadata of as many empty grids. */
+static void test_nvdb__too_many_grids(void **state)
+{
+    (void)state;
+    enum { HEADER = 16, RECORD = 176, VERSION = 172, MANY = 4097 };
+    size_t size;
+    unsigned char *bytes = plain(&size);
+    unsigned char *more = calloc(HEADER + MANY * RECORD, 1);
+    assert_non_null(more);
+    memcpy(more, bytes, HEADER);
+    more[12] = MANY & 255;
+    more[13] = MANY >> 8;
+    for (size_t i = 0; i < MANY; i++)
+        memcpy(more + HEADER + i * RECORD + VERSION, bytes + 8, 4);
+    write_file(more, HEADER + MANY * RECORD);
+    refused(path, NULL, VDB_DENSITY, "many grids");
+    free(more);
+    free(bytes);
+}
+
+static void test_nvdb__wide_codes_are_refused(void **state)
+{
+    (void)state;
+    size_t size;
+    unsigned char *bytes = bare(DATA("codes.nvdb"), 3, &size);
+    bytes[NVDB_GRID + NVDB_TREE + 64 + 32 + 270400 + 33856 + 15] = 7 << 5;
+    write_file(bytes, size);
+    refused(path, NULL, VDB_DENSITY, "over 16 bits");
+    free(bytes);
+}
+
 /* A node that is its parent's child twice does not make twice the voxels. */
 static void test_nvdb__no_node_counts_twice(void **state)
 {
@@ -356,6 +431,9 @@ int main(void)
         cmocka_unit_test(test_nvdb__lists_and_refuses),
         cmocka_unit_test(test_nvdb__bare_grids),
         cmocka_unit_test(test_nvdb__damage_is_named),
+        cmocka_unit_test(test_nvdb__damaged_segments_are_named),
+        cmocka_unit_test(test_nvdb__too_many_grids),
+        cmocka_unit_test(test_nvdb__wide_codes_are_refused),
         cmocka_unit_test(test_nvdb__no_node_counts_twice),
         cmocka_unit_test(test_nvdb__no_tile_counts_twice),
         cmocka_unit_test(test_nvdb__damaged_grids_are_errors),
