@@ -105,6 +105,12 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
                  (size_t)g->bricks[0] * (size_t)g->bricks[1] *
                      (size_t)g->bricks[2],
                  (double)g->lowest, (double)g->highest);
+        if (g->points > 0)
+            add_note(plan,
+                     "grid %zu: of %zu particles of radius %g to %g, on voxels "
+                     "of %g",
+                     i, g->points, (double)g->radius[0], (double)g->radius[1],
+                     g->to_world[0][0]);
     }
     for (size_t i = 0; i < scene->fields_count; i++)
         if (scene->fields[i].kind == BRUME_FIELD_FUNCTION) {

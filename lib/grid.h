@@ -34,7 +34,11 @@ struct grid {
     double clip_min[3], clip_max[3];    /* index space                     */
     double to_world[3][4];  /* index space to the file's world: p' = A p + b */
     float lowest, highest;  /* over all samples, background included       */
-    size_t bad_nan, bad_inf, bad_negative;  /* samples that were set to 0  */
+    size_t bad_nan, bad_inf, bad_negative;  /* samples that were set to 0;
+                               of particles: points that were left out     */
+    size_t points;          /* particles that it was made of, or 0         */
+    float radius[2];        /* the least and the largest of their balls    */
+    bool own_radii;         /* each particle had its own                   */
 };
 
 /* An empty grid of the given brick extent: every brick is tile 0, which is

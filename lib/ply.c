@@ -22,11 +22,27 @@ enum type {
 };
 
 /* What a property is to us: an index of a vertex's values, or a face's list. */
-enum role { X, Y, Z, NX, NY, NZ, U, V, VERTEX_VALUES, CORNERS, SKIPPED };
+enum role {
+    X,
+    Y,
+    Z,
+    NX,
+    NY,
+    NZ,
+    U,
+    V,
+    RADIUS,
+    MASS,
+    VALUE,
+    VERTEX_VALUES,
+    CORNERS,
+    SKIPPED
+};
 
 struct property {
     enum type type, count_type; /* count_type: NO_TYPE if no list      */
     enum role role;
+    bool wanted; /* it is the points' value, whatever else it is */
 };
 
 struct element {
@@ -42,8 +58,12 @@ struct ply {
     int elements;
     struct element element[MAX_ELEMENTS];
     const struct element *vertex, *face;
-    bool has_normal, has_uv;
-    struct mesh *mesh;
+    bool has_normal, has_uv, has_value;
+    struct mesh *mesh; /* one of these two is made                  */
+    struct points *points;
+    const char *value;  /* name of the property of role VALUE, or NULL */
+    size_t capacity[4]; /* of the arrays of points                   */
+    char held[512];     /* names of the vertices' further properties */
     struct brume_error *err;
 };
 
@@ -68,9 +88,11 @@ static enum role role_named(const char *element, const char *name, bool list)
         const char *name;
         enum role role;
     } values[] = {
-        {"x", X},         {"y", Y},   {"z", Z}, {"nx", NX},
-        {"ny", NY},       {"nz", NZ}, {"u", U}, {"s", U},
-        {"texture_u", U}, {"v", V},   {"t", V}, {"texture_v", V},
+        {"x", X},           {"y", Y},           {"z", Z},
+        {"nx", NX},         {"ny", NY},         {"nz", NZ},
+        {"u", U},           {"s", U},           {"texture_u", U},
+        {"v", V},           {"t", V},           {"texture_v", V},
+        {"radius", RADIUS}, {"pscale", RADIUS}, {"mass", MASS},
     };
     if (strcmp(element, "face") == 0 && list &&
         (strcmp(name, "vertex_indices") == 0 ||
@@ -90,6 +112,13 @@ static bool read_type(struct ply *p, enum type *type)
     *type = type_named(p->scan.word);
     return *type != NO_TYPE ||
            scan_fail(&p->scan, "unknown type '%.40s'", p->scan.word);
+}
+
+static void note_name(struct ply *p, const char *name)
+{
+    size_t used = strlen(p->held);
+    snprintf(p->held + used, sizeof p->held - used, "%s%.64s",
+             used > 0 ? ", " : "", name);
 }
 
 /* "property TYPE NAME" or "property list TYPE TYPE NAME". */
@@ -116,6 +145,12 @@ static bool read_property(struct ply *p)
     if (!scan_word(s))
         return scan_fail(s, "a property without a name");
     to->role = role_named(e->name, s->word, list);
+    if (strcmp(e->name, "vertex") == 0 && !list) {
+        to->wanted = p->value && strcmp(s->word, p->value) == 0;
+        p->has_value |= to->wanted;
+        if (to->role > Z)
+            note_name(p, s->word);
+    }
     if (to->role == CORNERS && to->type >= FLOAT32)
         return scan_fail(s, "vertex indices are not integers");
     return true;
@@ -171,6 +206,16 @@ static bool has_role(const struct element *e, enum role role)
     return false;
 }
 
+/* The properties of the vertices, where none of the wanted ones is there. */
+static bool check_points(struct ply *p)
+{
+    if (!p->value || p->has_value)
+        return true;
+    return brume_fail_file(
+        p->err, p->scan.path, "has no property '%s' of its points%s%s",
+        p->value, p->held[0] ? "; beside x, y and z they have " : "", p->held);
+}
+
 static bool check_header(struct ply *p)
 {
     p->vertex = find_element(p, "vertex");
@@ -178,6 +223,8 @@ static bool check_header(struct ply *p)
     if (!p->vertex || !has_role(p->vertex, X) || !has_role(p->vertex, Y) ||
         !has_role(p->vertex, Z))
         return scan_fail(&p->scan, "no vertices with x, y and z");
+    if (p->points)
+        return check_points(p);
     if (!p->face || !has_role(p->face, CORNERS))
         return scan_fail(&p->scan, "no faces with vertex_indices");
     if (p->vertex->count >= MESH_NONE)
@@ -259,7 +306,8 @@ static bool read_binary(struct ply *p, enum type type, double *value)
             return brume_fail_file(p->err, p->scan.path,
                                    "ends too early: its header promises %.0f "
                                    "vertices and %.0f faces",
-                                   p->vertex->count, p->face->count);
+                                   p->vertex->count,
+                                   p->face ? p->face->count : 0);
         bits = p->format == BIG ? bits << 8 | (uint64_t)c
                                 : bits | (uint64_t)c << 8 * i;
     }
@@ -275,7 +323,7 @@ static bool read_value(struct ply *p, enum type type, double *value)
         return scan_fail(&p->scan,
                          "the file ends too early: its header "
                          "promises %.0f vertices and %.0f faces",
-                         p->vertex->count, p->face->count);
+                         p->vertex->count, p->face ? p->face->count : 0);
     return scan_number(&p->scan, value);
 }
 
@@ -347,6 +395,35 @@ static bool add_vertex(struct ply *p, double item,
            (!p->has_uv || mesh_add_uv(p->mesh, uv, p->err));
 }
 
+/* Numbers that a file has of its points, one more each. */
+static bool add_number(struct ply *p, double **array, int which,
+                       const double *from, size_t count)
+{
+    size_t used = p->points->count * count;
+    double *grown = memory_grow(*array, &p->capacity[which], used + count,
+                                sizeof *grown, p->err);
+    if (!grown)
+        return false;
+    *array = grown;
+    memcpy(grown + used, from, count * sizeof *grown);
+    return true;
+}
+
+static bool add_point(struct ply *p, const double value[VERTEX_VALUES])
+{
+    struct points *to = p->points;
+    double **array[] = {&to->radius, &to->mass, &to->value};
+    if (!add_number(p, &to->at, 0, value, 3))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if ((i == 2 ? p->has_value
+                    : has_role(p->vertex, (enum role)(RADIUS + i))) &&
+            !add_number(p, array[i], i + 1, &value[RADIUS + i], 1))
+            return false;
+    to->count++;
+    return true;
+}
+
 static bool read_item(struct ply *p, const struct element *e, double item)
 {
     double value[VERTEX_VALUES] = {0}, unused;
@@ -360,14 +437,20 @@ static bool read_item(struct ply *p, const struct element *e, double item)
                                        : &unused);
         if (!ok)
             return false;
+        if (from->wanted)
+            value[VALUE] = from->role < VERTEX_VALUES ? value[from->role]
+                                                      : unused;
     }
-    return e != p->vertex || add_vertex(p, item, value);
+    if (e != p->vertex)
+        return true;
+    return p->points ? add_point(p, value) : add_vertex(p, item, value);
 }
 
 /* Nothing of ours stands behind the last of vertex and face. */
 static bool read_body(struct ply *p)
 {
-    const struct element *last = p->face > p->vertex ? p->face : p->vertex;
+    const struct element *last = !p->points && p->face > p->vertex ? p->face
+                                                                   : p->vertex;
     for (const struct element *e = p->element; e <= last; e++)
         for (double i = 0; e->properties > 0 && i < e->count; i++)
             if (!read_item(p, e, i))
@@ -375,29 +458,56 @@ static bool read_body(struct ply *p)
     return true;
 }
 
-static bool load(struct ply *p, const char *path)
+static bool read_file(struct ply *p, const char *path)
 {
-    p->mesh = mesh_new(p->err);
-    if (!p->mesh || !scan_open(&p->scan, path, p->err) || !read_header(p) ||
-        !read_body(p))
-        return false;
-    mesh_mend(p->mesh);
-    return true;
+    bool ok = scan_open(&p->scan, path, p->err) && read_header(p) &&
+              read_body(p);
+    scan_close(&p->scan);
+    return ok;
 }
 
 struct mesh *ply_load(const char *path, struct brume_error *err)
 {
+    struct mesh *mesh = NULL;
     struct ply *p = memory_new(1, sizeof *p, err);
     if (!p)
         return NULL;
     p->err = err;
-    struct mesh *mesh = NULL;
-    bool ok = load(p, path);
-    if (ok)
+    p->mesh = mesh_new(err);
+    if (p->mesh && read_file(p, path)) {
+        mesh_mend(p->mesh);
         mesh = p->mesh;
-    else
+    } else
         mesh_free(p->mesh);
-    scan_close(&p->scan);
     free(p);
     return mesh;
+}
+
+void points_free(struct points *points)
+{
+    if (!points)
+        return;
+    free(points->at);
+    free(points->radius);
+    free(points->mass);
+    free(points->value);
+    free(points);
+}
+
+struct points *ply_load_points(const char *path, const char *value,
+                               struct brume_error *err)
+{
+    struct points *points = NULL;
+    struct ply *p = memory_new(1, sizeof *p, err);
+    if (!p)
+        return NULL;
+    p->err = err;
+    p->value = value;
+    p->points = memory_new(1, sizeof *p->points, err);
+    if (p->points && read_file(p, path))
+        points = p->points;
+    else
+        points_free(p->points);
+    free(p);
+    return points;
 }

@@ -1,4 +1,5 @@
 /* build_pattern.c - patterns and their modifiers, wherever a pattern is. */
+#include <float.h>
 #include <string.h>
 
 #include "parser/builder.h"
@@ -253,15 +254,27 @@ static void set_nothing(struct parser *parser, struct frame *frame,
 
 /* ---- density_file ------------------------------------------------------ */
 
-enum { FILE_NAMED, FILE_INTERPOLATE, FILE_FIT, FILE_UP };
+enum {
+    FILE_NAMED,
+    FILE_INTERPOLATE,
+    FILE_FIT,
+    FILE_UP,
+    FILE_RADIUS,
+    FILE_VOXEL,
+    FILE_NEIGHBORS
+};
 
 static const struct param file_rows[] = {
     PARAM_OWN("df3", 1, 1, FILE_NAMED),
     PARAM_OWN("vdb", 1, 2, FILE_NAMED),
     PARAM_OWN("nvdb", 1, 2, FILE_NAMED),
+    PARAM_OWN("particles", 1, 2, FILE_NAMED),
     PARAM_OWN("interpolate", 1, 1, FILE_INTERPOLATE),
     PARAM_OWN("fit", 0, 0, FILE_FIT),
     PARAM_OWN("up", 1, 1, FILE_UP),
+    PARAM_OWN("radius", 1, 1, FILE_RADIUS),
+    PARAM_OWN("voxel", 1, 1, FILE_VOXEL),
+    PARAM_OWN("neighbors", 1, 1, FILE_NEIGHBORS),
     {0}};
 
 struct data_file data_file(const char *format, struct string name,
@@ -310,6 +323,29 @@ static void turn_file(struct parser *parser, struct data_file *file,
         parser_mistake(parser, at, "'up' must be y or z");
 }
 
+/* A number that tells of particles. */
+static void size_file(struct parser *parser, struct data_file *file,
+                      const struct param *row, const struct value *number,
+                      struct location at)
+{
+    double v = number->v[0];
+    double most = row->id == FILE_NEIGHBORS ? BRUME_MAX_NEIGHBORS : DBL_MAX;
+
+    if (strcmp(file->format, "particles"))
+        parser_mistake(parser, at, "'%s' belongs to particles, not to '%s'",
+                       row->word, file->format);
+    else if (number->kind != VALUE_NUMBER || number->terms != 1 ||
+             !(v > 0 && v <= most))
+        parser_mistake(parser, at, "'%s' must be a number above 0%s", row->word,
+                       row->id == FILE_NEIGHBORS ? ", at most 1024" : "");
+    else if (row->id == FILE_RADIUS)
+        file->radius = v;
+    else if (row->id == FILE_VOXEL)
+        file->voxel = v;
+    else
+        file->neighbors = (int)ceil(v);
+}
+
 static void set_file(struct parser *parser, struct frame *frame,
                      const struct param *row, const struct value *value,
                      int count, struct location at)
@@ -338,6 +374,8 @@ static void set_file(struct parser *parser, struct frame *frame,
         interpolate_file(parser, file, value, parser->builder->value_at);
     else if (row->id == FILE_UP)
         turn_file(parser, file, value, parser->builder->value_at);
+    else if (row->id >= FILE_RADIUS)
+        size_file(parser, file, row, value, parser->builder->value_at);
     else
         file->fit = true;
 }

@@ -13,7 +13,9 @@
 struct loaded_grid {
     struct loaded_grid *next;
     const char *path;
-    char name[64]; /* of the grid in the file                 */
+    char name[64];        /* of the grid in the file                 */
+    double radius, voxel; /* as in struct data_file                  */
+    int neighbors;
     enum grid_filter filter;
     int id;        /* in core                                 */
     transform fit; /* to_world's inverse, then its box to the
@@ -98,29 +100,113 @@ static void find_fit(const struct grid *grid, struct loaded_grid *out)
 
 /* ---- grids ------------------------------------------------------------- */
 
+static bool is_particles(const struct data_file *file)
+{
+    return !strcmp(file->format, "particles");
+}
+
 static void warn_of_bad(struct parser *parser, const struct data_file *file,
                         const struct grid *grid)
 {
     if (grid->bad_nan || grid->bad_inf || grid->bad_negative)
         parser_warn(parser, file->at,
-                    "grid '%s' of '%s': %zu NaN, %zu "
-                    "infinite and %zu negative voxels are taken as 0",
+                    "grid '%s' of '%s': %zu NaN, %zu infinite and %zu "
+                    "negative %s",
                     grid->name, file->name.text, grid->bad_nan, grid->bad_inf,
-                    grid->bad_negative);
+                    grid->bad_negative,
+                    is_particles(file) ? "particles are left out"
+                                       : "voxels are taken as 0");
 }
 
-/* What reads the grids of a format; list is NULL where a file is one grid. */
+static void warn_of_particles(struct parser *parser,
+                              const struct data_file *file,
+                              const struct grid *grid)
+{
+    if (grid->points == 0)
+        parser_warn(parser, file->at, "'%s' has no particles with a mass",
+                    file->name.text);
+    else if (file->radius > 0 && grid->own_radii)
+        parser_warn(parser, file->at,
+                    "'radius' has no effect: the particles of '%s' have their "
+                    "own",
+                    file->name.text);
+}
+
+/* ---- formats ----------------------------------------------------------- */
+
+static struct grid *load_vdb(const struct data_file *file, const char *path,
+                             const char *name, enum grid_filter filter,
+                             struct brume_error *err)
+{
+    (void)file;
+    (void)filter;
+    return vdb_load(path, name, VDB_DENSITY, err);
+}
+
+static struct grid *load_nvdb(const struct data_file *file, const char *path,
+                              const char *name, enum grid_filter filter,
+                              struct brume_error *err)
+{
+    (void)file;
+    (void)filter;
+    return nvdb_load(path, name, VDB_DENSITY, err);
+}
+
+static struct grid *load_df3(const struct data_file *file, const char *path,
+                             const char *name, enum grid_filter filter,
+                             struct brume_error *err)
+{
+    (void)file;
+    (void)name;
+    return df3_load(path, filter, err);
+}
+
+/* `name` is that of the property whose mean is wanted, or empty. */
+static struct grid *load_particles(const struct data_file *file,
+                                   const char *path, const char *name,
+                                   enum grid_filter filter,
+                                   struct brume_error *err)
+{
+    struct brume_particles particles = BRUME_PARTICLES_INIT;
+    struct points *points = ply_load_points(path, *name ? name : NULL, err);
+
+    (void)filter;
+    if (!points)
+        return NULL;
+    particles.count = points->count;
+    particles.at = points->at;
+    particles.radius = points->radius;
+    particles.mass = points->mass;
+    particles.value = points->value;
+    particles.default_radius = file->radius;
+    particles.neighbors = file->neighbors;
+    particles.voxel = file->voxel;
+    struct brume_error own = {0};
+    struct grid *grid = brume_particles_grid(&particles, &own);
+    if (!grid)
+        brume_fail(err, own.code, "'%s': %.900s", path, own.text);
+    else if (*name)
+        snprintf(grid->name, sizeof grid->name, "%s", name);
+    points_free(points);
+    return grid;
+}
+
+/* How a format's files are read; list is NULL where their grids are not of
+ * names of their own. */
 struct grid_format {
     const char *word;
+    enum grid_filter filter; /* unless the scene says another         */
     struct vdb_list *(*list)(const char *path, struct brume_error *err);
-    struct grid *(*load)(const char *path, const char *name, enum vdb_role role,
+    struct grid *(*load)(const struct data_file *file, const char *path,
+                         const char *name, enum grid_filter filter,
                          struct brume_error *err);
 };
 
 static const struct grid_format grid_formats[] = {
-    {"vdb", vdb_list_new, vdb_load},
-    {"nvdb", nvdb_list_new, nvdb_load},
-    {"df3", NULL, NULL},
+    {"df3", GRID_NEAREST, NULL, load_df3},
+    {"vdb", GRID_TRILINEAR, vdb_list_new, load_vdb},
+    {"nvdb", GRID_TRILINEAR, nvdb_list_new, load_nvdb},
+    {"particles", GRID_TRILINEAR, NULL, load_particles},
 };
 
 static const struct grid_format *format_of(const struct data_file *file)
@@ -139,16 +225,17 @@ static bool choose_grid(struct parser *parser, const struct data_file *file,
     struct vdb_list *list;
 
     memset(name, 0, 64);
-    if (!format_of(file)->list)
-        return true;
     if (file->grid.text && file->grid.length > 63)
         return parser_error(parser, file->at,
-                            "the name of the grid has more "
-                            "than 63 bytes");
+                            "the name of the grid has more than 63 bytes");
     if (file->grid.text && file->grid.length > 0) {
         memcpy(name, file->grid.text, file->grid.length);
         return true;
     }
+    if (is_particles(file) && role != VDB_DENSITY)
+        strcpy(name, role == VDB_TEMPERATURE ? "temperature" : "flame");
+    if (!format_of(file)->list)
+        return true;
     list = format_of(file)->list(path, &err);
     const struct vdb_entry *entry = list ? vdb_choose(list, role, path, &err)
                                          : NULL;
@@ -163,9 +250,9 @@ static bool choose_filter(struct parser *parser, const struct data_file *file,
 {
     int interpolate = file->interpolate;
 
-    if (interpolate < 0)
-        interpolate = format_of(file)->list ? 1 : 0;
-    *filter = interpolate == 0 ? GRID_NEAREST : GRID_TRILINEAR;
+    *filter = format_of(file)->filter;
+    if (interpolate >= 0)
+        *filter = interpolate == 0 ? GRID_NEAREST : GRID_TRILINEAR;
     if (interpolate <= 1)
         return true;
     return parser_error(parser, file->at,
@@ -174,14 +261,17 @@ static bool choose_filter(struct parser *parser, const struct data_file *file,
                         interpolate);
 }
 
-static struct loaded_grid *find_grid(struct parser *parser, const char *path,
-                                     const char *name, enum grid_filter filter)
+static struct loaded_grid *find_grid(struct parser *parser,
+                                     const struct data_file *file,
+                                     const char *path, const char *name,
+                                     enum grid_filter filter)
 {
     struct loaded_grid *known = parser->builder->loader.grids;
 
     for (; known; known = known->next)
         if (!strcmp(known->path, path) && !strcmp(known->name, name) &&
-            known->filter == filter)
+            known->filter == filter && known->radius == file->radius &&
+            known->neighbors == file->neighbors && known->voxel == file->voxel)
             break;
     return known;
 }
@@ -193,6 +283,8 @@ static bool send_grid(struct parser *parser, const struct data_file *file,
 
     grid->filter = out->filter;
     warn_of_bad(parser, file, grid);
+    if (is_particles(file))
+        warn_of_particles(parser, file, grid);
     find_fit(grid, out);
     out->id = brume_add_grid(parser->out->scene, grid, &err);
     return out->id >= 0 || parser_relay(parser, file->at, &err);
@@ -211,10 +303,10 @@ static struct loaded_grid *load_grid(struct parser *parser,
     out->path = path;
     memcpy(out->name, name, sizeof out->name);
     out->filter = filter;
-    const struct grid_format *format = format_of(file);
-    struct grid *grid = format->load
-                            ? format->load(path, name, VDB_DENSITY, &err)
-                            : df3_load(path, filter, &err);
+    out->radius = file->radius;
+    out->neighbors = file->neighbors;
+    out->voxel = file->voxel;
+    struct grid *grid = format_of(file)->load(file, path, name, filter, &err);
     if (!grid) {
         parser_relay(parser, file->at, &err);
         return NULL;
@@ -253,7 +345,7 @@ bool load_density(struct parser *parser, const struct data_file *file,
     enum grid_filter filter;
     char name[64];
 
-    if (!format_of(file)->list && (file->fit || file->grid.text))
+    if (!strcmp(file->format, "df3") && (file->fit || file->grid.text))
         return parser_error(parser, file->at,
                             "a df3 file has no grid to "
                             "name or to fit: it fills the unit cube");
@@ -262,7 +354,7 @@ bool load_density(struct parser *parser, const struct data_file *file,
     if (!path || !choose_filter(parser, file, &filter) ||
         !choose_grid(parser, file, path, role, name))
         return false;
-    struct loaded_grid *grid = find_grid(parser, path, name, filter);
+    struct loaded_grid *grid = find_grid(parser, file, path, name, filter);
     if (!grid)
         grid = load_grid(parser, file, path, name, filter);
     if (!grid)

@@ -14,13 +14,17 @@ struct loaded_mesh;
 struct loaded_image;
 struct raster;
 
-/* A file as the scene names it: `vdb "file" "grid" interpolate N fit up z`. */
+/* A file as the scene names it: `vdb "file" "grid" interpolate N fit up z`, or
+ * `particles "file" "property" radius R neighbors N voxel S`. */
 struct data_file {
-    const char *format;         /* the word: df3, vdb, nvdb; ply, obj      */
+    const char *format;         /* the word: df3, vdb, nvdb, particles; ply,
+                                   obj                                     */
     struct string name, grid;   /* grid.text NULL: none named              */
     struct location at;         /* of the file's name                      */
     int interpolate;            /* -1: the format's default                */
     bool fit, up_z;
+    double radius, voxel;       /* of particles; 0: not given              */
+    int neighbors;
 };
 struct data_file data_file(const char *format, struct string name,
                            struct location at);

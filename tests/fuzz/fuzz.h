@@ -90,7 +90,7 @@ static inline void fuzz_options(const uint8_t *data, size_t size)
 /* A data file, for each of the readers. */
 static inline void fuzz_data(const uint8_t *data, size_t size)
 {
-    struct brume_error err[5] = {{0}};
+    struct brume_error err[6] = {{0}};
     char path[32];
     int fd;
     fuzz_file(data, size, &fd, path);
@@ -98,6 +98,7 @@ static inline void fuzz_data(const uint8_t *data, size_t size)
     mesh_free(ply_load(path, &err[1]));
     mesh_free(obj_load(path, &err[2]));
     vdb_list_free(vdb_list_new(path, &err[3]));
+    points_free(ply_load_points(path, NULL, &err[5]));
     grid_free(nvdb_load(path, NULL, VDB_DENSITY, &err[4]));
     close(fd);
 }

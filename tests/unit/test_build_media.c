@@ -176,6 +176,19 @@ static struct grid *small_grid(const char *name, bool bad)
     return grid;
 }
 
+/* A file of tests/data, which is where this program starts. */
+static void copy_file(const char *name)
+{
+    char from[64];
+    unsigned char bytes[8192];
+    snprintf(from, sizeof from, "tests/data/%s", name);
+    FILE *f = fopen(from, "rb");
+    assert_non_null(f);
+    size_t size = fread(bytes, 1, sizeof bytes, f);
+    fclose(f);
+    write_file(name, bytes, size);
+}
+
 static int make_files(void **state)
 {
     struct grid *good[3] = {small_grid("density", false),
@@ -188,16 +201,17 @@ static int make_files(void **state)
         "property float y\nproperty float z\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n"
         "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const char none[] =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+        "property float y\nproperty float z\nproperty float mass\n"
+        "end_header\n0 0 0 0\n";
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     (void)state;
 
-    static unsigned char nvdb[8192];
-    FILE *data = fopen("tests/data/tiles.nvdb", "rb");
-    assert_non_null(data);
-    size_t size = fread(nvdb, 1, sizeof nvdb, data);
-    fclose(data);
     assert_non_null(mkdtemp(folder));
-    write_file("tiles.nvdb", nvdb, size);
+    write_file("none.ply", none, sizeof none - 1);
+    copy_file("tiles.nvdb");
+    copy_file("dust.ply");
     assert_true(vdb_save(in_folder("fire.vdb"),
                          (const struct grid *const *)good, 3, 0, NULL));
     assert_true(vdb_save(in_folder("bad.vdb"), (const struct grid *const *)&bad,
@@ -214,9 +228,9 @@ static int make_files(void **state)
 
 static int remove_files(void **state)
 {
-    static const char *const names[] = {"fire.vdb",  "bad.vdb", "two.df3",
-                                        "cut.df3",   "one.ply", "one.obj",
-                                        "tiles.nvdb"};
+    static const char *const names[] = {"fire.vdb",   "bad.vdb",  "two.df3",
+                                        "cut.df3",    "one.ply",  "one.obj",
+                                        "tiles.nvdb", "dust.ply", "none.ply"};
 
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlink(in_folder(names[i]));
@@ -325,6 +339,36 @@ static void nvdb_files(void **state)
                  BRUME_ERR_FILE, 1, 37, "no grid named 'no'");
 }
 
+/* dust.ply: masses 2, 2 and 4 that count. */
+static void particle_files(void **state)
+{
+    (void)state;
+    const struct brume_medium *m = medium_of(
+        "density { density_file particles \"dust.ply\" voxel 0.25 }\n"
+        "density { density_file particles \"dust.ply\" voxel 0.25 fit up z }\n"
+        "density { density_file particles \"dust.ply\" \"mass\" }\n"
+        "fire { temperature { density_file particles \"dust.ply\" } }");
+    const brume_scene *s = result.scene;
+    assert_int_equal(s->grids, 3);
+    assert_int_equal(m->density[1], m->density[0] + 1);
+    const struct fake_grid *g = s->grid;
+    assert_string_equal(g[0].name, "density");
+    assert_string_equal(g[1].name, "mass");
+    assert_string_equal(g[2].name, "temperature");
+    expect_warning("media { density { density_file particles \"dust.ply\" } }",
+                   1, 42,
+                   "1 NaN, 0 infinite and 1 negative particles are left "
+                   "out");
+    expect_warning("media { density { density_file particles \"none.ply\" } }",
+                   1, 42, "no particles with a mass");
+    expect_error("media { density { density_file particles \"one.ply\" \"q\" "
+                 "} }",
+                 BRUME_ERR_FILE, 1, 42, "no property 'q'");
+    expect_error("media { fire { temperature { density_file particles "
+                 "\"one.ply\" } } }",
+                 BRUME_ERR_FILE, 1, 53, "no property 'temperature'");
+}
+
 static void files_that_are_wrong(void **state)
 {
     (void)state;
@@ -373,6 +417,7 @@ int main(void)
         cmocka_unit_test(all_transforms_reach_a_density),
         cmocka_unit_test(vdb_files),
         cmocka_unit_test(nvdb_files),
+        cmocka_unit_test(particle_files),
         cmocka_unit_test(vdb_boxes),
         cmocka_unit_test(files_that_are_wrong),
         cmocka_unit_test(mesh_files),

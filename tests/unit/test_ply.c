@@ -234,6 +234,44 @@ static void test_ply__errors_say_where(void **state)
     refused(HEAD(9000000000000000, 1) "0 0 0\n", "limit");
 }
 
+/* Points need no faces, and take what they are named for. */
+static void test_ply__points(void **state)
+{
+    (void)state;
+    static const char head[] =
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float heat\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        "property float pscale\nproperty float mass\n"
+        "property list uchar int more\nend_header\n"
+        "900 1 2 3 0.5 7 1 9\n-inf 4 nan 6 -1 8 0\n";
+    struct brume_error err = {0};
+    write_bytes(head, sizeof head - 1);
+    struct points *p = ply_load_points(path, "heat", &err);
+    assert_non_null(p);
+    assert_int_equal(p->count, 2);
+    assert_true(p->at[0] == 1 && p->at[3] == 4 && isnan(p->at[4]));
+    assert_true(p->radius[0] == 0.5 && p->radius[1] == -1);
+    assert_true(p->mass[0] == 7 && p->mass[1] == 8);
+    assert_true(p->value[0] == 900 && p->value[1] == -INFINITY);
+    points_free(p);
+    p = ply_load_points(path, "mass", &err);
+    assert_true(p->value[1] == 8 && p->mass[1] == 8);
+    points_free(p);
+    p = ply_load_points(path, NULL, &err);
+    assert_null(p->value);
+    points_free(p);
+    assert_null(ply_load_points(path, "temperature", &err));
+    assert_non_null(strstr(err.text, "no property 'temperature'"));
+    assert_non_null(strstr(err.text, "have heat, pscale, mass"));
+    assert_null(ply_load(path, NULL));
+    static const char flat[] = "ply\nformat ascii 1.0\nelement vertex 1\n"
+                               "property float x\nend_header\n1\n";
+    write_bytes(flat, sizeof flat - 1);
+    memset(&err, 0, sizeof err);
+    assert_null(ply_load_points(path, NULL, &err));
+    assert_non_null(strstr(err.text, "no vertices with x, y and z"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -242,6 +280,7 @@ int main(void)
         cmocka_unit_test(test_ply__binary_of_both_endiannesses),
         cmocka_unit_test(test_ply__damaged_files_are_errors),
         cmocka_unit_test(test_ply__errors_say_where),
+        cmocka_unit_test(test_ply__points),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
