@@ -44,7 +44,7 @@ C       := $(CC) -std=c11 $(COMMON) -Wmissing-prototypes -Wstrict-prototypes
 CPP     := $(CXX) -std=c++17 $(COMMON)
 CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
 
-PACKAGES := OpenEXR libpng libjpeg jansson freetype2 zlib blosc
+PACKAGES := OpenEXR libpng libjpeg jansson freetype2 zlib
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE
 C       += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
@@ -52,7 +52,7 @@ CPP     += $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
 OTHER_LIBS := -lgif -lm -pthread
 LIBS     = $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) $(OTHER_LIBS)
 # What lib/vdb_module.cc uses; Debian has no .pc file for OpenVDB.
-VDB_LIBS := -lopenvdb -ltbb
+VDB_LIBS := -lopenvdb -ltbb -lblosc
 # The folders in which a program finds that module: an RPATH, as a RUNPATH does
 # not hold where the sanitizer calls dlopen for it.
 rpath    = -Wl,--disable-new-dtags,-rpath,'$1'

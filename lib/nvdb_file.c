@@ -1,11 +1,11 @@
 #include "lib/nvdb_file.h"
-#include <blosc.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 #include "lib/memory.h"
 #include "lib/vdb_file.h"
+#include "lib/vdb_module.h"
 
 enum { MAX_GRIDS = 4096, MAJOR = 32, HEADER = 16, METADATA = 176, NAME = 256 };
 
@@ -255,21 +255,21 @@ static bool unpack_zip(struct nvdb_file *f, const unsigned char *from,
 static bool unpack_blosc(struct nvdb_file *f, const unsigned char *from,
                          uint64_t size, unsigned char *to, uint64_t room)
 {
-    while (room > 0) {
-        size_t made = 0;
+    const struct vdb_module *module = vdb_module_for(f->bytes.path,
+                                                     f->bytes.err);
+    while (module && room > 0) {
         if (size < 8 || number(from, 8) > size - 8)
             return broken(f, "has a block of the wrong size");
         uint64_t packed = number(from, 8);
-        if (blosc_cbuffer_validate(from + 8, packed, &made) < 0 || made == 0 ||
-            made > room ||
-            blosc_decompress_ctx(from + 8, to, made, 1) != (int)made)
+        size_t made = module->unpack(from + 8, packed, to, room);
+        if (made == 0)
             return broken(f, "has a Blosc block that can't be unpacked");
         from += 8 + packed;
         size -= 8 + packed;
         to += made;
         room -= made;
     }
-    return true;
+    return module != NULL;
 }
 
 static bool unpack(struct nvdb_file *f, const struct nvdb_record *r,

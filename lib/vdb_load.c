@@ -3,10 +3,9 @@
 #include "lib/output.h"
 #include "lib/vdb_module.h"
 
-/* The module is loaded by the first call and stays, as OpenVDB can't be
- * loaded twice; later calls find it. NULL with err set. */
-static const struct vdb_module *module_for(const char *path,
-                                           struct brume_error *err)
+/* It stays, as OpenVDB can't be loaded twice; later calls find it. */
+const struct vdb_module *vdb_module_for(const char *path,
+                                        struct brume_error *err)
 {
     void *handle = dlopen(VDB_MODULE_FILE,
                           RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -41,14 +40,14 @@ struct grid *vdb_load(const char *path, const char *name, enum vdb_role role,
             return NULL;
         name = chosen.name;
     }
-    const struct vdb_module *module = module_for(path, err);
+    const struct vdb_module *module = vdb_module_for(path, err);
     return module ? module->load(path, name, err) : NULL;
 }
 
 bool vdb_save(const char *path, const struct grid *const *grids, size_t count,
               int flags, struct brume_error *err)
 {
-    const struct vdb_module *module = module_for(path, err);
+    const struct vdb_module *module = vdb_module_for(path, err);
     struct output *o = module ? output_open(path, err) : NULL;
     if (!o)
         return false;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <blosc.h>
 /* OpenVDB's templates here must be the same objects as in its library: with
  * hidden ones its std::call_once may run our copy of a function, which then
  * sets our copy of a static and leaves the library's unset. */
@@ -417,8 +418,17 @@ bool save(const char *path, const char *name, const grid *const *grids,
     });
 }
 
+size_t unpack(const void *from, size_t size, void *to, size_t room)
+{
+    size_t made = 0;
+    if (blosc_cbuffer_validate(from, size, &made) < 0 || made > room ||
+        blosc_decompress_ctx(from, to, made, 1) != static_cast<int>(made))
+        return 0;
+    return made;
+}
+
 } /* namespace */
 
 /* By VDB_MODULE_SYMBOL. */
 extern "C" __attribute__((visibility("default")))
-const vdb_module brume_vdb_module = {load_named, save};
+const vdb_module brume_vdb_module = {unpack, load_named, save};
