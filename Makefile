@@ -181,7 +181,7 @@ format:
 	clang-format -i $$(git ls-files '*.c' '*.cc' '*.cu')
 
 # The headers lie in one folder: #include <brume/brume.h>.
-HEADERS := core/brume.h lib/error.h lib/grid.h lib/mesh.h
+HEADERS := core/brume.h core/particles.h lib/error.h lib/grid.h lib/mesh.h
 VERSION  = $(shell sed -n 's/^\#define BRUME_VERSION "\(.*\)"/\1/p' core/brume.h)
 ROOT     = $(DESTDIR)$(PREFIX)
 install: $(B)/brume
@@ -189,7 +189,7 @@ install: $(B)/brume
 	@install -D -m644 -t $(ROOT)/lib $(B)/libbrume.a
 	@install -D -m644 -t $(ROOT)/lib/brume $(MODULE)
 	@install -d $(ROOT)/include/brume $(ROOT)/lib/pkgconfig
-	@for h in $(HEADERS); do sed 's,"lib/,",' $$h \
+	@for h in $(HEADERS); do sed 's,"\(lib\|core\)/,",' $$h \
 	    >$(ROOT)/include/brume/$${h##*/} || exit; done
 	@printf '%s\n' 'prefix=$${pcfiledir}/../..' 'Name: brume' \
 	    'Description: renderer of scenes with participating media' \

@@ -7,8 +7,9 @@
 #include "core/brume.h"
 
 /* Distances from each point to its k-th nearest other one, to the farthest
- * where there are not so many, 0 where there is none; k in [1, BRUME_MAX_NEIGHBORS].
- * `at` is x y z of each, finite, below 1e150. Exact: by a kd-tree. */
+ * where there are not so many, 0 where there is none; k is 1 to
+ * BRUME_MAX_NEIGHBORS. `at` is x y z of each, finite, below 1e150. Exact: by a
+ * kd-tree. */
 bool neighbors_distances(const double *at, size_t count, int k, int threads,
                          double *distance, struct brume_error *err);
 #endif
