@@ -322,6 +322,9 @@ static void close_texture(struct parser *parser, struct frame *frame,
         parser_mistake(parser, at,
                        "a texture with a pattern needs textures "
                        "to choose from");
+    /* Of a texture without a pattern of its own it is that of its parts. */
+    if (texture->on.uv_mapping)
+        texture->pigment.on.uv_mapping = texture->normal.on.uv_mapping = 1;
     surface_mean_texture(texture);
 }
 

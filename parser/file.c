@@ -51,7 +51,7 @@ static void note_tried(struct search *search, const char *path)
 static void try_path(struct search *search, const char *folder,
                      const char *extension)
 {
-    size_t room = strlen(folder) + search->name.length + strlen(extension) + 2;
+    size_t room = strlen(folder) + search->name.length + strlen(extension) + 24;
     char *path = parser_alloc(search->parser, room);
     if (!path) {
         return;
@@ -59,7 +59,13 @@ static void try_path(struct search *search, const char *folder,
     snprintf(path, room, "%s%s%s%s", folder,
              *folder && folder[strlen(folder) - 1] != '/' ? "/" : "",
              search->name.text, extension);
-    if (!is_regular(path)) {
+    int kept = permit_kept(search->parser, path);
+    if (kept >= 0 && search->purpose == PARSER_DATA) {
+        snprintf(path, room, "/proc/self/fd/%d", kept);
+        search->found = path;
+    } else if (kept >= 0) {
+        search->found = path;
+    } else if (!is_regular(path)) {
         note_tried(search, path);
     } else if (search->purpose == PARSER_DATA ||
                permit_reads(search->parser, path)) {

@@ -194,8 +194,11 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
 void parse_written_release(struct parse_written *written)
 {
     for (size_t i = 0; i < written->count; i++) {
-        free(written->path[i]);
+        free(written->file[i].path);
+        if (written->file[i].kept >= 0) {
+            close(written->file[i].kept);
+        }
     }
-    free(written->path);
+    free(written->file);
     *written = (struct parse_written){0};
 }

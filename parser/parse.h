@@ -46,7 +46,10 @@ struct parse_limits {
 /* Files that the scenes of a film wrote, and may read too; to be released by
  * the caller. Zero to begin with. */
 struct parse_written {
-    char **path;                /* resolved                                */
+    struct parse_written_file {
+        char *path;             /* resolved                                */
+        int kept;               /* what stands for it; -1: it is there     */
+    } *file;
     size_t count, room;
 };
 void parse_written_release(struct parse_written *written);
@@ -60,6 +63,8 @@ struct parse_input {
     double version;             /* of the language until #version says
                                    otherwise (+MV); 0: 3.7                 */
     bool all_errors;            /* go on behind errors, to report them all */
+    bool dry;                   /* what the scene writes is kept aside, for it
+                                   to read, and gone at the end            */
     bool full_transport;        /* transport is full unless the scene writes
                                    it out (--transport full)               */
     /* Folders, in the order they are searched after the scene's own. */

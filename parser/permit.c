@@ -46,14 +46,15 @@ static bool lies_in_any(const char *path, const char *const *folder,
     return false;
 }
 
-static bool was_written(const struct parse_input *in, const char *real)
+static struct parse_written_file *written_file(const struct parse_input *in,
+                                               const char *real)
 {
     for (size_t i = 0; in->written && i < in->written->count; i++) {
-        if (strcmp(in->written->path[i], real) == 0) {
-            return true;
+        if (strcmp(in->written->file[i].path, real) == 0) {
+            return &in->written->file[i];
         }
     }
-    return false;
+    return NULL;
 }
 
 static bool may_read(const struct parser *parser, const char *real)
@@ -63,7 +64,7 @@ static bool may_read(const struct parser *parser, const char *real)
     return lies_in(real, own) ||
            lies_in_any(real, in->library, in->libraries) ||
            lies_in_any(real, in->allow_read, in->allow_reads) ||
-           was_written(in, real);
+           written_file(in, real) != NULL;
 }
 
 bool permit_reads(const struct parser *parser, const char *path)
@@ -146,8 +147,13 @@ int permit_open_any(struct parser *parser, struct location at, const char *path)
 int permit_open_text(struct parser *parser, struct location at,
                      const char *path)
 {
-    char real[PATH_MAX];
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    char real[PATH_MAX], link[64];
+    int kept = permit_kept(parser, path);
+    snprintf(link, sizeof link, "/proc/self/fd/%d", kept);
+    int file = open(kept < 0 ? path : link, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (kept >= 0 && file >= 0) {
+        return file;
+    }
     if (file < 0) {
         return fail_open(parser, at, path, "opened", errno);
     }
@@ -220,6 +226,42 @@ static bool resolve_output(const char *path, char real[PATH_MAX])
            realpath(path, real);
 }
 
+/* Copies what is there already. */
+static bool copy_file(int from, int to)
+{
+    char bytes[4096];
+    ssize_t count;
+    while ((count = read(from, bytes, sizeof bytes)) > 0) {
+        if (write(to, bytes, (size_t)count) != count) {
+            return false;
+        }
+    }
+    return count == 0;
+}
+
+/* A file without a name, with what the named one in a folder has if it is to
+ * be appended to; or what is kept of that already. */
+static int open_aside(int folder, const char *name, bool append, int kept)
+{
+    if (append && kept >= 0) {
+        return lseek(kept, 0, SEEK_END) < 0 ? -1
+                                            : fcntl(kept, F_DUPFD_CLOEXEC, 0);
+    }
+    FILE *aside = tmpfile();
+    int file = aside ? fcntl(fileno(aside), F_DUPFD_CLOEXEC, 0) : -1;
+    if (aside) {
+        fclose(aside);
+    }
+    int old = append && file >= 0
+                  ? openat(folder, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK)
+                  : -1;
+    if (old >= 0) {
+        copy_file(old, file);
+        close(old);
+    }
+    return file;
+}
+
 /* In the folder that was resolved, and through no link. */
 static void open_output(const struct parser *parser, struct attempt *attempt,
                         bool append)
@@ -235,7 +277,15 @@ static void open_output(const struct parser *parser, struct attempt *attempt,
     }
     attempt->denied = !path_of(at, folder, folder) ||
                       !join(now, folder, name) || !may_write(parser, now);
-    if (!attempt->denied) {
+    if (!attempt->denied && parser->in->dry) {
+        const struct parse_written_file *old = written_file(parser->in, now);
+        struct stat status;
+        attempt->denied = fstatat(at, name, &status, AT_SYMLINK_NOFOLLOW) ==
+                              0 &&
+                          !S_ISREG(status.st_mode);
+        attempt->file = open_aside(at, name, append, old ? old->kept : -1);
+        attempt->why = errno;
+    } else if (!attempt->denied) {
         int how = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
         attempt->file = openat(at, name, how | (append ? O_APPEND : 0), 0666);
         attempt->why = errno;
@@ -275,18 +325,43 @@ static bool note_written(struct parser *parser, struct location at,
 {
     struct parse_written *written = parser->in->written;
     struct brume_error err = {0};
-    if (!written || was_written(parser->in, real)) {
+    if (!written || written_file(parser->in, real)) {
         return true;
     }
-    char **grown = memory_grow(written->path, &written->room,
-                               written->count + 1, sizeof *grown, &err);
+    struct parse_written_file *grown = memory_grow(
+        written->file, &written->room, written->count + 1, sizeof *grown, &err);
     char *copy = grown ? memory_string(real, &err) : NULL;
-    written->path = grown ? grown : written->path;
+    written->file = grown ? grown : written->file;
     if (!copy) {
         return parser_relay(parser, at, &err);
     }
-    written->path[written->count++] = copy;
+    written->file[written->count++] = (struct parse_written_file){copy, -1};
     return true;
+}
+
+int permit_kept(const struct parser *parser, const char *path)
+{
+    char real[PATH_MAX];
+    const struct parse_written_file *file = NULL;
+    if (parser->in->dry && resolve_output(path, real)) {
+        file = written_file(parser->in, real);
+    }
+    return file ? file->kept : -1;
+}
+
+/* What is written aside from now on stands for the file. */
+static int keep_aside(struct parser *parser, const char *real, int file,
+                      bool append)
+{
+    struct parse_written_file *entry = written_file(parser->in, real);
+    if (!parser->in->dry || !entry || (append && entry->kept >= 0)) {
+        return file;
+    }
+    if (entry->kept >= 0) {
+        close(entry->kept);
+    }
+    entry->kept = file;
+    return fcntl(file, F_DUPFD_CLOEXEC, 0);
 }
 
 int permit_open_output(struct parser *parser, struct location at,
@@ -310,7 +385,7 @@ int permit_open_output(struct parser *parser, struct location at,
     *path = arena_copy(&parser->arena, attempt.real, strlen(attempt.real));
     if ((append || ftruncate(file, 0) == 0) && *path &&
         note_written(parser, at, attempt.real)) {
-        return file;
+        return keep_aside(parser, attempt.real, file, append);
     }
     close(file);
     if (!parser->failed) {

@@ -12,6 +12,9 @@
 /* Whether a text may be read; the file need not be there. */
 bool permit_reads(const struct parser *parser, const char *path);
 
+/* What --check keeps aside of a file that the scene wrote; -1: nothing. */
+int permit_kept(const struct parser *parser, const char *path);
+
 /* Open a file and give its descriptor; -1: reported. */
 int permit_open_text(struct parser *parser, struct location at,
                      const char *path);

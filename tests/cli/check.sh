@@ -51,6 +51,34 @@ for body in 'x + ' 'x * * y' 'sum(i, 1, 3, i * ' 'x * <1, 2>'; do
     is "$(grep -c error: said)" 1
 done
 
+new_case 'it writes nothing, and reads what it would have written'
+echo 'old' >there.inc
+cat >s.pov <<'END'
+#fopen F "new.inc" write
+#write(F, "#declare A = 5;\n")
+#fclose F
+#include "new.inc"
+#fopen F "new.inc" append
+#write(F, "#declare B = 6;\n")
+#fclose F
+#include "new.inc"
+#fopen F "there.inc" write
+#write(F, "\"x\", 7")
+#fclose F
+#fopen F "there.inc" read
+#read(F, T, C)
+#fclose F
+#debug concat(str(A, 0, 0), str(B, 0, 0), T, str(C, 0, 0),
+    str(file_exists("new.inc"), 0, 0), "\n")
+#fopen F "../far.inc" write
+END
+brume s.pov --check
+exits 4
+says '56x71'
+says "writing '../far.inc' is not allowed"
+is "$(cat there.inc)" old
+is "$(find . -name new.inc)" ''
+
 new_case '#error ends it'
 printf '#error "enough"\nbox { }\n' >s.pov
 brume s.pov --check

@@ -15,7 +15,7 @@ try()
 {
     echo "$1" >scene/t.pov
     shift
-    brume scene/t.pov +Oout/p.png +Llibrary --check "$@"
+    brume scene/t.pov +Oout/p.png +Llibrary +W1 +H1 "$@"
 }
 
 denied()
@@ -91,7 +91,7 @@ is "$(cat out/v.txt)" 2
 
 new_case 'to the working folder where that is the output folder'
 echo '#fopen F "x.txt" write #write (F, 3)' >scene/t.pov
-brume scene/t.pov +Op.png --check
+brume scene/t.pov +Op.png +W1 +H1
 exits 0
 is "$(cat x.txt)" 3
 
@@ -146,7 +146,7 @@ mkfifo out/pipe
 try '#fopen F "pipe" write #write (F, 1)'
 exits 4 5
 echo '#fopen F "null" write #write (F, 1)' >scene/t.pov
-brume scene/t.pov +O/dev/null --check
+brume scene/t.pov +O/dev/null +W1 +H1
 exits 4
 
 new_case 'unless the user allows the folder'
@@ -173,7 +173,7 @@ cat >scene/t.pov <<'END'
 #debug concat("N ", str(N, 0, 0), "\n")
 #fopen F "state.txt" write #write (F, N + 10) #fclose F
 END
-brume scene/t.pov +Oout/p.png +KFF3 --check
+brume scene/t.pov +Oout/p.png +KFF3 +W1 +H1
 exits 0
 says 'N 20'
 

@@ -37,7 +37,7 @@ struct words_use {
 #define WORDS_WORN(text) "sphere { 0, 1 " text " }"
 #define WORDS_GLOW "sphere { 0, 1 pigment { rgbt 1 } hollow "
 #define WORDS_MESH "vertex_vectors { 4, 0, x, y, z } "
-#define WORDS_MAPPED "pigment { bozo uv_mapping } "
+#define WORDS_MAPPED "texture { uv_mapping pigment { bozo } } "
 #define WORDS_FACES                                                            \
     "face_indices { 4, <0, 1, 2>, <0, 1, 3>, <0, 2, 3>, <1, 2, 3> } "
 
@@ -178,11 +178,10 @@ static const struct words_scene words_scenes[] = {
     WORDS_IN(OBJECT_PATTERN,
              WORDS_WORN("pigment { @object { box { 0, 1 } rgb x rgb y }@ }")),
     WORDS_IN(IMAGE_MAP,
-               WORDS_WORN("pigment { @image_map { png \"tests/data/dots.png\" "
-                          "% }@ }")),
-    WORDS_IN(IMAGE_PATTERN,
-               WORDS_WORN("pigment { @image_pattern { png "
-                          "\"tests/data/dots.png\" % }@ }")),
+             WORDS_WORN("pigment { @image_map { png \"tests/data/dots.png\" "
+                        "% }@ }")),
+    WORDS_IN(IMAGE_PATTERN, WORDS_WORN("pigment { @image_pattern { png "
+                                       "\"tests/data/dots.png\" % }@ }")),
     WORDS_LACK(BUMP_MAP, "normals",
                WORDS_WORN("normal { @bump_map { png \"tests/data/dots.png\" "
                           "% }@ }")),
@@ -282,11 +281,11 @@ static const struct words_scene words_scenes[] = {
 #define WORDS_NO_HEIGHTS(word)                                                 \
     WORDS_TOLD(HEIGHT_FIELD, word, word " \"tests/data/dots.png\"",            \
                "height_field { % }", "'" word "' are not supported")
-#define WORDS_READ(kind, word)                                                \
-    WORDS_USE(kind, word, word " \"tests/data/dots." word "\"",               \
+#define WORDS_READ(kind, word)                                                 \
+    WORDS_USE(kind, word, word " \"tests/data/dots." word "\"",                \
               "png \"tests/data/dots_alpha.png\"")
-#define WORDS_UNREAD(kind, word)                                              \
-    WORDS_TOLD(kind, word, word " \"tests/data/dots.png\"", NULL,             \
+#define WORDS_UNREAD(kind, word)                                               \
+    WORDS_TOLD(kind, word, word " \"tests/data/dots.png\"", NULL,              \
                "'" word "' are not read yet")
 #define WORDS_DRAWN(kind)                                                      \
     WORDS_READ(kind, "png"), WORDS_READ(kind, "ppm"), WORDS_READ(kind, "tga"), \
@@ -325,6 +324,9 @@ static const struct words_use words_uses[] = {
      "no_radiosity"},
     WORDS_TOLD(TRIANGLE, "uv_vectors", "uv_vectors <0, 0>, <1, 0>, <0, 1>",
                "triangle { 0, x, y % " WORDS_MAPPED "}",
+               "pigments of some patterns"),
+    WORDS_TOLD(TEXTURE, "uv_mapping", NULL,
+               WORDS_WORN("texture { uv_mapping pigment { bozo } }"),
                "pigments of some patterns"),
     WORDS_TOLD(SMOOTH_TRIANGLE, "uv_vectors",
                "uv_vectors <0, 0>, <1, 0>, <0, 1>",
@@ -546,8 +548,7 @@ static const struct words_use words_uses[] = {
                 WORDS_WORN("pigment { image_pattern { png "
                            "\"tests/data/dots_alpha.png\" % } }")),
     WORDS_USE(IMAGE_PATTERN, "use_color", "use_alpha use_color", "use_alpha"),
-    WORDS_USE(IMAGE_PATTERN, "use_colour", "use_alpha use_colour",
-              "use_alpha"),
+    WORDS_USE(IMAGE_PATTERN, "use_colour", "use_alpha use_colour", "use_alpha"),
     WORDS_PICTURES(BUMP_MAP),
     WORDS_PICTURES(MATERIAL_MAP),
     WORDS_THERE(TILES, "tile2", "texture { pigment { rgb x } } tile2",
