@@ -5,9 +5,11 @@
  *     test_truth_tables table [NAME]... the same as a table of Markdown
  *
  * A row passes with |z| < 4, z = (mean - truth) / sqrt(SE^2 + u^2) over 32
- * batches, at a standard error SE <= max(truth / 1000, u). Where that would
- * take more than SECONDS_A_ROW (60) of the processor, the row is `short`: the
- * error it reached is told, and z still holds. RELATIVE=1e-4 asks for more. */
+ * batches, at a standard error SE <= max(truth / 1000, u). Where a picture
+ * would take more than PICTURE_SECONDS (2) of the processor for that, the
+ * row's scene is walked through (truth_walk.h), if it may be; WALK=1 does so
+ * at once. What takes more than SECONDS_A_ROW (60) is `short`: the error it
+ * reached is told, and z still holds. RELATIVE=1e-4 asks for more. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -63,6 +65,42 @@ static void add_t4(struct truth_row *rows, int *count)
         }
 }
 
+/* How fast light dies away deep in a medium: by diffusion theory if need be. */
+static double decay_of(double albedo, double g)
+{
+    if (albedo == 1.0)
+        return 0.0;
+    if (g == 0.0)
+        return albedo > 0.0 ? case_root(albedo) : 0.99;
+    return fmin(sqrt(3.0 * (1.0 - albedo) * (1.0 - albedo * g)), 0.98);
+}
+
+static void plan_slab(struct truth_row *r, double cosine, double albedo,
+                      double g, double depth, bool reflected)
+{
+    bool shallow = depth < 3.0 || albedo < 0.95;
+    r->plan = (struct walk_plan){
+        .space = WALK_SLAB,
+        .start = -1.0,
+        .cosine = cosine,
+        .depth = depth,
+        .target = reflected ? 0.0 : depth,
+        .edge = 0.71 / (1.0 - g),
+        .decay = decay_of(albedo, g),
+        .g = g,
+        .loss = 1.0 - albedo,
+        .wide = reflected && g > 0.0 ? (shallow ? 0.3 : 0.1) : 0.0};
+}
+
+static void plan_space(struct truth_row *r, double albedo, double distance)
+{
+    r->plan = (struct walk_plan){.space = WALK_SPACE,
+                                 .cosine = 1.0,
+                                 .target = distance,
+                                 .decay = decay_of(albedo, 0.0),
+                                 .loss = 1.0 - albedo};
+}
+
 static void add_t5(struct truth_row *rows, int *count)
 {
     for (int i = 0; i < ROWS(truth_t5); i++)
@@ -73,6 +111,7 @@ static void add_t5(struct truth_row *rows, int *count)
                 truth_t5[i][0], truth_t5_r[k]);
             r->p[0] = truth_t5[i][0];
             r->p[1] = truth_t5_r[k];
+            plan_space(r, r->p[0], r->p[1]);
             r->sample = i == 0 && k == 2;
         }
 }
@@ -99,6 +138,7 @@ static void add_t6(struct truth_row *rows, int *count)
             r->p[1] = t[1];
             r->p[2] = tau;
             r->p[3] = k % 2 == 0;
+            plan_slab(r, 1.0, t[1], t[0], tau, k % 2 == 0);
             r->rare = 1.0;
             r->sample = (i == 0 && k == 4) || (i == 7 && k == 1) ||
                         (i == 20 && k == 5);
@@ -137,19 +177,21 @@ static void add_t7_t9(struct truth_row *rows, int *count)
     }
 }
 
-/* The row of albedo 1 is left out: no slab stands for that half-space, and
- * its plane and spherical albedo are a furnace's (test_truths.c). */
 static void add_t8(struct truth_row *rows, int *count)
 {
     const double cosine[3] = {0.1, 0.5, 1.0};
-    for (int i = 0; i < ROWS(truth_t8) - 1; i++) {
+    for (int i = 0; i < ROWS(truth_t8); i++) {
         const double *t = truth_t8[i];
+        double depth = half_space_depth(t[0]);
+        bool white = t[0] == 1.0;
         for (int k = 0; k < 3; k++) {
             double l = t[0] * t[1 + k] * t[1 + k] / (8.0 * TRUTH_PI);
             ROW(batch_t8_h, l, 1e-7 * l, "T8 H albedo=%g mu=%g", t[0],
                 cosine[k]);
             r->p[0] = t[0];
             r->p[1] = cosine[k];
+            r->p[2] = white ? t[1 + k] : 0.0;
+            plan_slab(r, cosine[k], t[0], 0.0, depth, true);
             r->sample = i == 5 && k == 0;
         }
         for (int k = 0; k < 3; k++) {
@@ -157,11 +199,15 @@ static void add_t8(struct truth_row *rows, int *count)
                 t[0], cosine[k]);
             r->p[0] = t[0];
             r->p[1] = cosine[k];
+            r->p[2] = white ? t[1 + k] : 0.0;
+            plan_slab(r, cosine[k], t[0], 0.0, depth, true);
             r->sample = i == 2 && k == 2;
         }
         /* Gauss's rule of 8 is good to 2e-5. */
         ROW(batch_t8_sphere, t[7], 2e-5, "T8 sphere albedo=%g", t[0]);
         r->p[0] = t[0];
+        r->p[2] = white ? 4.0 / sqrt(3.0) : 0.0;
+        plan_slab(r, 0.0, t[0], 0.0, depth, true);
     }
 }
 
@@ -223,29 +269,53 @@ static double setting(const char *name, double otherwise)
     return text ? atof(text) : otherwise;
 }
 
-/* Doubles as its own pilot: batches that were too small are thrown away, so
- * that those that count have a size fixed before they ran. Events so rare that
- * none was seen count as one. */
-static struct result run_row(const struct truth_row *row, uint32_t frame,
-                             double seconds)
+/* Of events so rare that none was seen in a picture, one counts. */
+static double unseen(const struct truth_row *row, int spp)
 {
-    struct result out = {0};
+    return row->walked ? 0.0
+                       : row->rare / ((double)spp * BATCHES * BATCH_PIXELS *
+                                      BATCH_PIXELS);
+}
+
+/* Doubles as its own pilot: batches that were too small are thrown away, so
+ * that those that count have a size fixed before they ran. Gives up, if it
+ * may, where `seconds` would not do. */
+static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
+                   bool gives_up, struct result *out)
+{
     double target = fmax(setting("RELATIVE", 1e-3) * fabs(row->truth), row->u);
     double start = cpu_seconds(), want = 1.0;
     do {
         double before = cpu_seconds();
-        run_batches(row, (int)ceil(want), &frame, &out);
+        run_batches(row, (int)ceil(want), frame, out);
         double used = cpu_seconds() - before;
-        double rare = row->rare /
-                      ((double)out.spp * BATCHES * BATCH_PIXELS * BATCH_PIXELS);
-        out.reached = fmax(out.error, rare) <= target;
-        double more = 1.1 * (out.error / target) * (out.error / target);
+        double rare = unseen(row, out->spp);
+        out->reached = fmax(out->error, rare) <= target;
+        double more = 1.1 * (out->error / target) * (out->error / target);
         more = fmax(more, 1.1 * rare / target);
         double fits = (seconds - (cpu_seconds() - start)) / used;
-        if (fits < 1.5)
+        if (out->reached || fits < 1.5 || (gives_up && more > fits))
             break;
-        want = out.spp * fmin(fmin(fmax(more, 2.0), 50.0), fits);
-    } while (!out.reached && want < 1e6);
+        want = out->spp * fmin(fmin(fmax(more, 2.0), 50.0), fits);
+    } while (want < 1e6);
+}
+
+static struct result run_row(struct truth_row *row, uint32_t frame,
+                             double seconds)
+{
+    struct result out = {0};
+    double start = cpu_seconds();
+    bool can_walk = row->plan.space != WALK_NOWHERE;
+    row->walked = can_walk && setting("WALK", 0.0) > 0.0;
+    if (!row->walked)
+        run_so(row, &frame,
+               can_walk ? fmin(seconds, setting("PICTURE_SECONDS", 2.0))
+                        : seconds,
+               can_walk, &out);
+    if (can_walk && !out.reached) {
+        row->walked = true;
+        run_so(row, &frame, seconds, false, &out);
+    }
     out.seconds = cpu_seconds() - start;
     return out;
 }
@@ -278,13 +348,15 @@ static void report(const struct truth_row *row, const struct result *r,
 {
     double relative = row->truth == 0.0 ? 0.0 : r->error / row->truth;
     if (table)
-        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %.1f | %s |\n", row->name,
+        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %.1f | %s%s |\n", row->name,
                row->truth, r->mean, relative, r->z, r->seconds,
-               r->reached ? "" : "short");
+               row->walked ? "walk" : "picture", r->reached ? "" : ", short");
     else
-        printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, %.1f s%s\n",
+        printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, %.1f s, "
+               "%s%s\n",
                fabs(r->z) < 4.0 ? "" : "not ", row->name, r->mean, row->truth,
-               relative, r->z, r->seconds, r->reached ? "" : ", short");
+               relative, r->z, r->seconds, row->walked ? "walk" : "picture",
+               r->reached ? "" : ", short");
     fflush(stdout);
 }
 
@@ -296,7 +368,7 @@ int main(int argc, char **argv)
     bool sample = argc < 2;
     double seconds = setting("SECONDS_A_ROW", 60.0);
     if (table)
-        printf("| row | truth | mean | SE / truth | z | CPU s | |\n"
+        printf("| row | truth | mean | SE / truth | z | CPU s | by |\n"
                "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
         if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))

@@ -2,7 +2,7 @@
  * of its estimate, through brume.h alone. Lengths are mean free paths. */
 #ifndef TESTS_UNIT_TRUTH_SCENES_H
 #define TESTS_UNIT_TRUTH_SCENES_H
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_walk.h"
 
 /* What a row of a table asks. `p` are its parameters, family by family. */
 struct truth_row {
@@ -10,6 +10,8 @@ struct truth_row {
     double (*batch)(const struct truth_row *row, int spp, uint32_t frame);
     double p[4];
     double truth, u;
+    struct walk_plan plan;  /* of a walk instead of a picture              */
+    bool walked;
     double rare;            /* the largest value of a sample, where most are
                                0; or 0                                     */
     bool sample;            /* run by `make test` too                      */
@@ -40,6 +42,17 @@ static inline double batch_render(brume_scene *s, int pixels, int spp,
 }
 
 enum { BATCH_PIXELS = 16 };
+
+/* The picture's mean, or that of as many paths walked together. */
+static inline double batch_measure(brume_scene *s, const struct truth_row *row,
+                                   int spp, uint32_t frame)
+{
+    if (row->walked)
+        return truth_walk(s, &row->plan,
+                          (size_t)BATCH_PIXELS * BATCH_PIXELS * (size_t)spp,
+                          frame);
+    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+}
 
 static inline struct brume_globals batch_globals(bool multiple)
 {
@@ -236,7 +249,7 @@ static inline double batch_t5(const struct truth_row *row, int spp,
     glowing_ball(s, r - half, -1.0);
     if (a == 1.0)
         edge = 3.0 / (4.0 * TRUTH_PI * (T5_EDGE + 0.7104461));
-    return edge + batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0) /
+    return edge + batch_measure(s, row, spp, frame) /
                       shell_volume(a, r, half);
 }
 
@@ -309,7 +322,7 @@ static inline double batch_t6(const struct truth_row *row, int spp,
     brume_scene *s = batch_slab(true, row->p[2], slab_width(row->p[2]), &m);
     bool reflected = row->p[3] != 0.0;
     batch_sky(s, reflected ? 1.0f : 0.0f, reflected ? 0.0f : 1.0f);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_measure(s, row, spp, frame);
 }
 
 /* p: out cosine, in cosine, < 0: from behind. */
@@ -358,35 +371,59 @@ static inline double batch_ball(const struct truth_row *row, int spp,
            (TRUTH_PI * r);
 }
 
-/* A slab that stands for the half-space of this albedo. */
+/* A slab that stands for the half-space of this albedo; for albedo 1 the rows
+ * add what passes it. */
+static inline double half_space_depth(double albedo)
+{
+    return albedo == 1.0 ? 20.0 : 20.0 / sqrt(3.0 * (1.0 - albedo));
+}
+
 static inline brume_scene *half_space(double albedo)
 {
-    double depth = 20.0 / sqrt(3.0 * (1.0 - albedo));
+    double depth = half_space_depth(albedo);
     struct brume_medium m = truth_medium(1.0 - albedo, albedo, 0.0);
     return batch_slab(true, depth, 50.0 + 2.0 * depth, &m);
 }
 
-/* p: albedo, cosine in and out: radiance per E, a H^2 / (8 pi). */
+/* What a conservative slab passes of a beam with that cosine, by its escape
+ * function K = sqrt(3)/4 H, and the radiance that it does not reflect for it;
+ * good to exp(-depth) [van de Hulst 1980]. */
+static inline double passed_share(double h)
+{
+    double k = 0.25 * sqrt(3.0) * h;
+    return 4.0 * k / (3.0 * (half_space_depth(1.0) + 2.0 * 0.7104460896));
+}
+
+static inline double passed_radiance(double h, double cosine)
+{
+    return cosine / TRUTH_PI * 0.25 * sqrt(3.0) * h * passed_share(h);
+}
+
+/* p: albedo, cosine in and out, H for albedo 1, or 0: radiance per E,
+ * a H^2 / (8 pi). */
 static inline double batch_t8_h(const struct truth_row *row, int spp,
                                 uint32_t frame)
 {
     brume_scene *s = half_space(row->p[0]);
     batch_tilt(s, row->p[1]);
     batch_beam(s, row->p[1]);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return passed_radiance(row->p[2], row->p[1]) +
+           batch_measure(s, row, spp, frame);
 }
 
-/* p: albedo, cosine: plane albedo, by reciprocity under a sky of 1. */
+/* p: albedo, cosine, H for albedo 1, or 0: plane albedo, by reciprocity under
+ * a sky of 1. */
 static inline double batch_t8_plane(const struct truth_row *row, int spp,
                                     uint32_t frame)
 {
     brume_scene *s = half_space(row->p[0]);
     batch_tilt(s, row->p[1]);
     batch_sky(s, 1.0f, 0.0f);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return passed_share(row->p[2]) + batch_measure(s, row, spp, frame);
 }
 
-/* p: albedo: the mean of the plane albedo over cosine^2, by Gauss's rule. */
+/* p: albedo, -, the H of the mean, or 0: the mean of the plane albedo over
+ * cosine^2, by Gauss's rule. */
 static inline double batch_t8_sphere(const struct truth_row *row, int spp,
                                      uint32_t frame)
 {
@@ -398,7 +435,7 @@ static inline double batch_t8_sphere(const struct truth_row *row, int spp,
     for (int i = 0; i < 8; i++) {
         double x = i < 4 ? node[i] : -node[i - 4], mu = 0.5 * (1.0 + x);
         struct truth_row at = *row;
-        at.p[1] = mu;
+        at.p[1] = at.plan.cosine = mu;
         sum += weight[i % 4] * mu *
                batch_t8_plane(&at, spp, 8 * frame + (uint32_t)i);
     }
