@@ -21,12 +21,13 @@ static bool announced(struct parser *parser, struct frame *frame,
     struct builder *builder = parser->builder;
 
     if (frame->arguments == 0) {
-        if (number->terms != 1 || !(number->v[0] >= 0) ||
-            number->v[0] > 4294967294.0)
+        bool sound = number->terms == 1 && number->v[0] >= 0 &&
+                     number->v[0] <= 4294967294.0;
+        if (!sound)
             parser_error(parser, at,
                          "the count of a list must be from 0 to "
                          "4294967294");
-        builder->announced = (int64_t)number->v[0];
+        builder->announced = sound ? (int64_t)number->v[0] : 0;
         /* Counted on in 64 bits by `listed`. */
         return false;
     }

@@ -427,7 +427,7 @@ static struct value run_str(struct call *call)
 static struct value run_vstr(struct call *call)
 {
     double asked = trunc(argument(call, 0));
-    int terms = asked > VALUE_TERMS ? VALUE_TERMS : asked < 1 ? 1 : (int)asked;
+    int terms = asked > VALUE_TERMS ? VALUE_TERMS : asked >= 1 ? (int)asked : 1;
     struct value v = call->argument[1];
     struct string between = string_argument(call, 2);
     char format[32];
