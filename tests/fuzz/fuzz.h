@@ -13,6 +13,8 @@
 #include "lib/nvdb.h"
 #include "lib/obj.h"
 #include "lib/ply.h"
+#include "lib/radiance.h"
+#include "lib/raster.h"
 #include "lib/vdb.h"
 #include "parser/options.h"
 #include "parser/parse.h"
@@ -90,7 +92,9 @@ static inline void fuzz_options(const uint8_t *data, size_t size)
 /* A data file, for each of the readers. */
 static inline void fuzz_data(const uint8_t *data, size_t size)
 {
-    struct brume_error err[6] = {{0}};
+    static const char *const format[] = {"png", "ppm", "tga", "jpeg",
+                                         "gif"};
+    struct brume_error err[12] = {{0}};
     char path[32];
     int fd;
     fuzz_file(data, size, &fd, path);
@@ -100,6 +104,9 @@ static inline void fuzz_data(const uint8_t *data, size_t size)
     vdb_list_free(vdb_list_new(path, &err[3]));
     points_free(ply_load_points(path, NULL, &err[5]));
     grid_free(nvdb_load(path, NULL, VDB_DENSITY, &err[4]));
+    radiance_free(radiance_load(path, &err[6]));
+    for (int i = 0; i < 5; i++)
+        raster_free(raster_load(format[i], path, &err[7 + i]));
     close(fd);
 }
 
