@@ -185,6 +185,11 @@ static bool make_solid(const struct leaf_request *r, struct arena *arena,
         return solid_quadric(arena, in->data, solid, err);
     case BRUME_SHAPE_POLY:
         out->kind = SOLID_POLY;
+        if (in->order < 2 || in->order > 35 ||
+            in->count != (size_t)solid_poly_terms(in->order))
+            return brume_fail(err, BRUME_ERR_SCENE,
+                              "polynomial of order %d with %zu numbers",
+                              in->order, in->count);
         return solid_poly(arena, in->order, in->data, solid, err);
     case BRUME_SHAPE_SUPERELLIPSOID:
         out->kind = SOLID_SUPERELLIPSOID;

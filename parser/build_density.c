@@ -33,14 +33,10 @@ static void density_argument(struct parser *parser, struct frame *frame,
 static void apply_density(struct parser *parser, struct frame *frame,
                           const struct value *value, struct location at)
 {
-    if (value->kind == VALUE_DENSITY && build_pattern_lists(frame)) {
-        build_pattern_choice(parser, frame, value, at);
-    } else if (value->kind == VALUE_DENSITY) {
-        *(struct density *)frame->node = *(const struct density *)value->node;
-        frame->given &= ~(unsigned)(FRAME_PATTERN | FRAME_LIST | FRAME_PLAIN);
-    } else if (!build_pattern_apply(parser, frame, value, at)) {
+    if (value->kind == VALUE_DENSITY)
+        build_begin_with(parser, frame, value, sizeof(struct density), at);
+    else if (!build_pattern_apply(parser, frame, value, at))
         build_misplaced(parser, frame, value, at);
-    }
 }
 
 static void move_density(struct parser *parser, struct frame *frame,

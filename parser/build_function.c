@@ -564,6 +564,10 @@ static bool write_field(struct writer *w, const struct field_key *key)
         return false;
     if (pattern->kind == PATTERN_IMAGE_MAP)
         return write_image(w, pattern);
+    if (pattern->kind == PATTERN_AVERAGE && !key->map) {
+        w->missing = "its map";
+        return false;
+    }
     if (pattern->kind == PATTERN_AVERAGE)
         return write_map(w, key->map, true);
     if (key->bare)

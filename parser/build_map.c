@@ -52,7 +52,8 @@ static bool is_averaged(struct parser *parser)
     struct builder *builder = parser->builder;
     const struct frame *user = builder->frame + builder->frames - 3;
 
-    if (builder->frames < 3 || user->kind == BUILD_KINDS)
+    if (builder->frames < 3 || user->kind == BUILD_KINDS ||
+        !(build_statement_of(user)->takes & BUILD_TAKES_PATTERN))
         return false;
     const struct pattern *pattern = build_patterned_of(user)->pattern;
     return pattern && pattern->kind == PATTERN_AVERAGE;

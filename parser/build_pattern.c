@@ -416,7 +416,7 @@ bool build_pattern_lists(const struct frame *frame)
            surface_choices(pattern->kind) > 0;
 }
 
-/* The map that lists for this kind of value make. */
+/* The map that lists for this kind of value make; VALUE_NONE: there is none. */
 static int list_kind(enum value_kind kind)
 {
     switch (kind) {
@@ -428,8 +428,10 @@ static int list_kind(enum value_kind kind)
         return VALUE_TEXTURE_MAP;
     case VALUE_DENSITY:
         return VALUE_DENSITY_MAP;
-    default:
+    case VALUE_NUMBER:
         return VALUE_COLOR_MAP;
+    default:
+        return VALUE_NONE;
     }
 }
 
@@ -486,13 +488,17 @@ void build_pattern_choice(struct parser *parser, struct frame *frame,
 {
     const struct pattern *pattern = build_patterned_of(frame)->pattern;
     int room = surface_choices(pattern->kind);
-    struct map *list = own_list(parser, frame, list_kind(value->kind));
+    int kind = list_kind(value->kind);
+    struct map *list;
 
+    if (kind == VALUE_NONE) {
+        build_misplaced(parser, frame, value, at);
+        return;
+    }
+    list = own_list(parser, frame, kind);
     if (!list)
         return;
-    if (value->kind == VALUE_STRING)
-        build_misplaced(parser, frame, value, at);
-    else if (list->kind != list_kind(value->kind))
+    if (list->kind != kind)
         parser_mistake(parser, at, "a list has things of one kind");
     else if (list->count == room)
         parser_mistake(parser, at, "this pattern chooses from %d things", room);

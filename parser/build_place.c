@@ -7,6 +7,7 @@
 #include "lib/memory.h"
 #include "lib/mesh.h"
 #include "parser/builder.h"
+#include "parser/expander.h"
 
 /* What a group hands down to its members. */
 struct inheritance {
@@ -344,8 +345,13 @@ static bool place_object(struct parser *parser, const struct object *object,
 
     parser->builder->parts = 0;
     bool fine = place_one(parser, object, &world, part, &depth, &err);
-    while (fine && depth > 0)
+    while (fine && depth > 0) {
+        /* A few lines can name a thing more often than there is time for. */
+        expander_spend(parser, 1, object->at);
+        if (parser->failed)
+            return false;
         fine = place_next(parser, &depth, &err);
+    }
     return fine || parser_relay(parser, object->at, &err);
 }
 

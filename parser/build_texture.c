@@ -7,8 +7,8 @@
 
 static bool is_texture(const struct frame *frame)
 {
-    return build_statement_of(frame)->takes & BUILD_TAKES(VALUE_TEXTURE) &&
-           !build_object_of(frame) && frame->kind != BUILD_MATERIAL;
+    return build_statement_of(frame)->makes == VALUE_TEXTURE ||
+           frame->kind == BUILD_TEXTURE_ENTRY;
 }
 
 /* What the statement around has by now, so that `pigment { scale 2 }` changes
@@ -101,10 +101,9 @@ static void pigment_argument(struct parser *parser, struct frame *frame,
     }
 }
 
-/* A part of the same kind: what it begins with, or an item of a list. */
-static void begin_with(struct parser *parser, struct frame *frame,
-                       const struct value *value, size_t size,
-                       struct location at)
+void build_begin_with(struct parser *parser, struct frame *frame,
+                      const struct value *value, size_t size,
+                      struct location at)
 {
     if (build_pattern_lists(frame)) {
         build_pattern_choice(parser, frame, value, at);
@@ -122,7 +121,7 @@ static void apply_pigment(struct parser *parser, struct frame *frame,
                           const struct value *value, struct location at)
 {
     if (value->kind == VALUE_PIGMENT)
-        begin_with(parser, frame, value, sizeof(struct pigment), at);
+        build_begin_with(parser, frame, value, sizeof(struct pigment), at);
     else if (!build_pattern_apply(parser, frame, value, at))
         build_misplaced(parser, frame, value, at);
 }
@@ -218,7 +217,7 @@ static void apply_normal(struct parser *parser, struct frame *frame,
                          const struct value *value, struct location at)
 {
     if (value->kind == VALUE_NORMAL)
-        begin_with(parser, frame, value, sizeof(struct normal), at);
+        build_begin_with(parser, frame, value, sizeof(struct normal), at);
     else if (!build_pattern_apply(parser, frame, value, at))
         build_misplaced(parser, frame, value, at);
 }
@@ -292,7 +291,7 @@ static void apply_texture(struct parser *parser, struct frame *frame,
     const struct texture *texture = frame->node;
 
     if (value->kind == VALUE_TEXTURE) {
-        begin_with(parser, frame, value, sizeof *texture, at);
+        build_begin_with(parser, frame, value, sizeof *texture, at);
     } else if (set_part(frame->node, value)) {
         frame->given |= FRAME_BEGUN;
         if (texture->on.map)

@@ -340,6 +340,11 @@ extern const struct param_group build_pattern_groups[];
 #define BUILD_TAKES_PATTERN BUILD_TAKES(VALUE_FUNCTION)
 extern const enum build_kind build_patterned[], build_entries[];
 struct patterned *build_patterned_of(const struct frame *frame);
+/* A part of the statement's own kind: what it begins with, or an item of a
+ * list. */
+void build_begin_with(struct parser *parser, struct frame *frame,
+                      const struct value *value, size_t size,
+                      struct location at);
 /* The pattern of the open statement, to be changed. NULL: no memory. */
 struct pattern *build_pattern_of(struct parser *parser, struct frame *frame);
 struct pattern *build_pattern_begin(struct parser *parser, struct frame *frame,

@@ -1,5 +1,6 @@
 #include "parser/formula.h"
 
+#include <limits.h>
 #include <string.h>
 
 #include "parser/build.h"
@@ -438,17 +439,22 @@ void formula_internal(struct parser *parser, const struct value *number,
 {
     enum { COMMA = 9 };
     struct brume_error err = {0};
+    double which = number->v[0];
     int id;
 
     if (parser->failed)
         return;
-    if ((int)number->v[0] == COMMA) {
+    if (!(which > INT_MIN && which < INT_MAX)) {
+        parser_error(parser, at, "there is no internal function %g", which);
+        return;
+    }
+    if ((int)which == COMMA) {
         parser_warn(parser, at,
                     "internal(9), f_comma, is not there yet: it "
                     "gives no number");
         id = add_nothing(parser, &err);
     } else {
-        id = brume_add_internal(parser->out->scene, (int)number->v[0], &err);
+        id = brume_add_internal(parser->out->scene, (int)which, &err);
     }
     made(parser, id, at, &err);
 }

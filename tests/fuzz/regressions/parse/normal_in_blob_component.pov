@@ -1,0 +1,1 @@
+#declare O=blob{threshold 0.5 normal{wrinkles 0 frequency 0} sphere{0 1 normal{ripples 0 phase 0 turbulence 0}} global_settings{number_of_waves 0} 7483648>,N); 

@@ -1,0 +1,2 @@
+#version 3.7;
+blob { threshold 0.5 sphere { 0, 1, 1 pigment { scale 2 } } }1
