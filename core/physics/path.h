@@ -44,6 +44,7 @@ typedef struct {
     rgb radiance;           /* gathered so far                             */
     int32_t driver;
     int32_t straight;       /* still on the line from the eye              */
+    float along;            /* where on the eye's line single.h looks      */
     float boost;            /* scattering events of this segment are drawn
                                so many times as often, and weigh so much less */
     path_stretch stretch;
@@ -60,13 +61,6 @@ HD void path_add(path_state *p, rgb value)
 {
     p->radiance = rgb_add(p->radiance,
                           rgb_scale(value, 1.0f / rgb_mean(p->r_u)));
-}
-
-/* Uniform in (0, 1), fine near 0 for rare events; never rounded to 1, which
- * would end white paths. */
-HD float path_fine(rng *r)
-{
-    return hd_min(((float)rng_u32(r) + 0.5f) * 2.32830644e-10f, 0.99999994f);
 }
 
 /* ---- media between two surfaces ---------------------------------------- */
@@ -196,7 +190,7 @@ HD int path_collide(path_state *p, const media_walk *w,
     rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
     if (rgb_get(drawn, p->driver) > m * 1.00001f)
         p->count->majorant_exceeded++;
-    float x = path_fine(&p->random) * m;
+    float x = rng_fine(&p->random) * m;
     for (int i = 0; i < w->count; i++) {
         float sigma = rgb_get(at->sigma_s[i], p->driver);
         if (x < p->boost * sigma) {
@@ -419,23 +413,36 @@ HD float path_along_share(const path_state *p, const flat_light *l, float t,
     return 1.0f / (1.0f + flight / equiangular_pdf(&e, t));
 }
 
-/* Next-event estimation to one of the lights. */
-HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
+HD void path_light_sample(const flat_scene *s, path_state *p,
+                          const path_vertex *v, const light_sample *l)
 {
-    light_sample l;
-    if (!light_choose(s, v->p, &p->random, &l) || !path_faces(v, l.wi))
+    const flat_light *light = &s->lights[l->light];
+    if (!path_faces(v, l->wi) || (v->medium && !light->media_interaction))
         return;
-    const flat_light *light = &s->lights[l.light];
-    if (v->medium && !light->media_interaction)
-        return;
-    rgb value = path_response(s, v, l.wi, light->shadows);
+    rgb value = path_response(s, v, l->wi, light->shadows);
     if (v->medium)
         value = rgb_scale(value, 1.0f -
             path_along_share(p, light, v->event->t, v->event->sigma_s));
     if (rgb_is_black(value))
         return;
-    value = rgb_mul(value, path_lit(s, p, v, &l));
-    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l.probability));
+    value = rgb_mul(value, path_lit(s, p, v, l));
+    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l->probability));
+}
+
+/* Next-event estimation to one of the lights; on surfaces that the eye sees,
+ * to all. */
+HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    light_sample l;
+    if (!v->surface || !p->straight) {
+        if (light_choose(s, v->p, &p->random, &l))
+            path_light_sample(s, p, v, &l);
+        return;
+    }
+    l.probability = 1.0f;
+    for (int i = 0; i < (int)s->lights_count; i++)
+        if (light_reach(s, i, v->p, &p->random, &l))
+            path_light_sample(s, p, v, &l);
 }
 
 /* What the media at distance t of the segment scatter toward the eye of light

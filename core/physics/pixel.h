@@ -3,7 +3,7 @@
 #define CORE_PHYSICS_PIXEL_H
 #include "core/physics/inside.h"
 #include "core/physics/march.h"
-#include "core/physics/path.h"
+#include "core/physics/single.h"
 
 /* Sums over samples. Halves of even and odd samples stand apart: their
  * difference tells the error (METHODS.md 10). */
@@ -93,6 +93,22 @@ HD void pixel_containers(const flat_scene *s, vec3 o, container_set *set)
         set->shape[i] = s->camera_containers[i];
 }
 
+/* Numbers of a sample that fill the unit cube evenly with those of the other
+ * samples of its pixel, from a corner of their own [Roberts 2018]. Even and
+ * odd samples go apart, so that their difference still tells the error. */
+HD void pixel_spread(const pixel_job *job, uint64_t index, uint32_t i,
+                     float u[3])
+{
+    rng corner = rng_make(job->seed, job->frame, 0xfffffffeu | (i & 1u), index);
+    uint32_t n = i >> 1;
+    uint32_t x = rng_u32(&corner) + n * 0xd1b54a33u;
+    uint32_t y = rng_u32(&corner) + n * 0xabc98389u;
+    uint32_t z = rng_u32(&corner) + n * 0x8cb92ba7u;
+    u[0] = (float)(x >> 8) * 5.96046448e-08f;
+    u[1] = (float)(y >> 8) * 5.96046448e-08f;
+    u[2] = (float)(z >> 8) * 5.96046448e-08f;
+}
+
 /* Starts sample `i` of pixel (x, y): runs its straight line and begins its
  * path. */
 HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
@@ -101,8 +117,10 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
 {
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
     rng random = rng_make(job->seed, job->frame, i, index);
-    float u = ((float)x + rng_float(&random)) / (float)job->width - 0.5f;
-    float v = 0.5f - ((float)y + rng_float(&random)) / (float)job->height;
+    float spread[3];
+    pixel_spread(job, index, i, spread);
+    float u = ((float)x + spread[0]) / (float)job->width - 0.5f;
+    float v = 0.5f - ((float)y + spread[1]) / (float)job->height;
     vec3 o, d;
     container_set set;
     camera_ray(&s->view, u, v, &o, &d);
@@ -110,6 +128,7 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
     if (pixel_has_line(i))
         pixel_line(s, o, d, &set, i, out, count);
     path_begin(path, o, d, &set, true, random);
+    path->along = spread[2];
     count->track.paths++;
 }
 
@@ -135,7 +154,7 @@ HD void pixel_run(const flat_scene *s, const pixel_job *job, int32_t x,
     while (alive || i < first + n) {
         if (!alive)
             pixel_begin(s, job, x, y, i++, &path, out, count);
-        alive = job->path && path_segment(s, &path, &count->track);
+        alive = job->path && single_segment(s, &path, &count->track);
         if (!alive)
             pixel_end(&path, i - 1u, out, count);
     }

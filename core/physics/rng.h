@@ -83,6 +83,13 @@ HD float rng_float(rng *r)
     return (float)(rng_u32(r) >> 8) * 5.96046448e-08f;
 }
 
+/* Uniform in (0, 1), fine near 0 for rare events; never rounded to 1, which
+ * would end white paths. */
+HD float rng_fine(rng *r)
+{
+    return hd_min(((float)rng_u32(r) + 0.5f) * 2.32830644e-10f, 0.99999994f);
+}
+
 /* True with probability p, to 2^-64: for choices that may be rare, such as
  * a real collision under a loose majorant. */
 HD bool rng_chance(rng *r, float p)

@@ -273,8 +273,8 @@ static void extremes__choices_stay_below_one(void **state)
     r.word[0] = 0xffffffffu;
     r.word[1] = 0u;
     r.used = 0u;
-    assert_true(path_fine(&r) < 1.0f);
-    assert_true(path_fine(&r) > 0.0f);
+    assert_true(rng_fine(&r) < 1.0f);
+    assert_true(rng_fine(&r) > 0.0f);
 }
 
 /* A direction stays of unit length over a long path. */
@@ -532,7 +532,7 @@ static void extremes__lamp_on_the_ray(void **state)
             l.color[c] = 1.0 / TRUTH_PI;
         truth_fill(s, truth_box(1.0, 0.0, 2.0), &m);
         assert_true(brume_add_light(s, &l, truth_error()) >= 0);
-        struct estimate e = truth_render(s, 16, 64);
+        struct estimate e = truth_render(s, 16, 512);
         assert_int_equal(e.stats.rejected, 0);
         assert_true(isfinite(e.mean[0]));
         if (off[i] > 0.0)

@@ -1,5 +1,6 @@
 /* Lights of every kind against POV-Ray's own figures (tests/oracle/lights.py
  * measures them), and the sky as a light against closed forms. */
+#include <string.h>
 #include "tests/unit/truth.h"
 
 /* A light 10 before a plane that reflects the same at any angle, seen straight
@@ -253,6 +254,42 @@ static void lights__refuses_what_is_not_supported(void **state)
 
 /* ---- the sky ------------------------------------------------------------ */
 
+/* Fog that does not attenuate shows the length of a ray that sharp beams
+ * light: a cone and a tube from above, one from ahead and one that misses. */
+static void lights__beams_in_fog(void **state)
+{
+    (void)state;
+    const struct {
+        enum brume_light_kind kind;
+        double from[3], to[3], radius, length;
+    } row[] = {
+        {BRUME_LIGHT_SPOT, {0, 10, 0}, {0, 0, 0}, 10.0, 3.5265396},
+        {BRUME_LIGHT_SPOT, {6, 10, 0}, {0, 0, 0}, 10.0, 4.1126166},
+        {BRUME_LIGHT_SPOT, {0, 0, 10}, {0, 0, 0}, 10.0, 20.0},
+        {BRUME_LIGHT_SPOT, {0, 10, 0}, {3, 0, 0}, 10.0, 0.0},
+        {BRUME_LIGHT_CYLINDER, {0, 10, 0}, {0, 0, 0}, 2.0, 4.0},
+        {BRUME_LIGHT_CYLINDER, {0, -3, 3}, {0, 0, 0}, 2.0, 5.6568542},
+        {BRUME_LIGHT_CYLINDER, {0, 0, -4}, {0, 0, 0}, 2.0, 14.0},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        struct brume_globals g = BRUME_GLOBALS_INIT;
+        brume_scene *s = truth_scene(&g, 20.0, 1e-6);
+        struct brume_medium m = truth_medium(0.0, 0.1, 0.0);
+        struct brume_light l = BRUME_LIGHT_INIT;
+        m.extinction = 0.0;
+        truth_fill(s, truth_box(30.0, -10.0, 10.0), &m);
+        l.kind = row[i].kind;
+        memcpy(l.location, row[i].from, sizeof l.location);
+        memcpy(l.point_at, row[i].to, sizeof l.point_at);
+        l.radius = l.falloff = row[i].radius;
+        assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+        struct estimate e = truth_render(s, 4, 64);
+        double truth = 0.1 * row[i].length;
+        if (!(fabs(e.mean[0] - truth) <= 4e-3 * truth))
+            fail_msg("beam %zu: %g, not %g", i, e.mean[0], truth);
+    }
+}
+
 enum { SKY_WIDTH = 16, SKY_HEIGHT = 8 };
 
 static struct brume_globals under_sky(void)
@@ -420,6 +457,7 @@ int main(void)
         cmocka_unit_test(lights__area_shadows),
         cmocka_unit_test(lights__shadowless_makes_no_highlight),
         cmocka_unit_test(lights__refuses_what_is_not_supported),
+        cmocka_unit_test(lights__beams_in_fog),
         cmocka_unit_test(lights__sky_lights_a_wall),
         cmocka_unit_test(lights__sky_with_a_sun),
         cmocka_unit_test(lights__sky_interpolates),

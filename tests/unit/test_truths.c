@@ -287,7 +287,8 @@ static void truths__single_scattering(void **state)
     const int spp[] = {3000, 600, 100, 60};
     for (int i = 0; i < 4; i++) {
         struct estimate e = lit_slab(&single, rows[i][0], 1.0, 0.0, spp[i]);
-        truth_check("T3", &e, rows[i][1], 5e-10, 1e-2);
+        /* The ends of the thinnest slab are floats near 1. */
+        truth_check("T3", &e, rows[i][1], 5e-10 + 1e-5 * rows[i][1], 1e-2);
     }
 }
 

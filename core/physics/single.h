@@ -1,0 +1,285 @@
+/* single.h - light that media scatter once, sampled along the eye's ray.
+ *
+ * Where nothing is followed beyond the first event and lights do not fall off
+ * with distance, no flights are drawn: the ray goes on to the next surface, and
+ * each light is sought at points of the stretch that it can reach, chosen by
+ * a coarse profile of how much is scattered there and comes through. */
+#ifndef CORE_PHYSICS_SINGLE_H
+#define CORE_PHYSICS_SINGLE_H
+#include "core/physics/path.h"
+
+enum { SINGLE_PIECES = 64, SINGLE_EVEN = 48, SINGLE_POINTS = 2 };
+
+/* What a coarse look tells: between distances t of the ray, the sums of what
+ * comes to the eye from before each. */
+typedef struct {
+    int32_t count;
+    float t[SINGLE_PIECES + 1], sum[SINGLE_PIECES + 1];
+} single_profile;
+
+/* Full, it goes on with half the pieces. */
+HD void single_add(single_profile *f, float t, float weight)
+{
+    if (f->count == SINGLE_PIECES) {
+        f->count /= 2;
+        for (int i = 1; i <= f->count; i++) {
+            f->t[i] = f->t[2 * i];
+            f->sum[i] = f->sum[2 * i];
+        }
+    }
+    float before = f->sum[f->count];
+    f->count++;
+    f->t[f->count] = t;
+    f->sum[f->count] = before + weight;
+}
+
+/* Scattering that the bounds of the current piece allow, and whether all its
+ * media are homogeneous. */
+HD float single_bound(const flat_scene *s, const media_walk *w, bool *even)
+{
+    float sum = 0.0f;
+    *even = true;
+    for (int i = 0; i < w->count; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        sum += rgb_max(m->sigma_s) * w->part[i].bound.density;
+        *even = *even && m->uniform;
+    }
+    return sum;
+}
+
+/* A piece whose middle scatters sigma_s and loses sigma_t, in parts where it
+ * is thick and even. Not beyond a depth from which nothing comes. */
+HD void single_piece(single_profile *f, const media_walk *w, float sigma_s,
+                     float sigma_t, bool even, double *tau)
+{
+    float length = w->t_end - w->t, depth = sigma_t * length;
+    int parts = 1;
+    if (even && depth > 0.5f * SINGLE_EVEN) {
+        depth = 0.5f * SINGLE_EVEN;
+        length = depth / sigma_t;
+    }
+    if (even && depth > 0.5f)
+        parts = (int)(2.0f * depth) + 1;
+    for (int i = 1; i <= parts; i++) {
+        float part = length / (float)parts;
+        float seen = fm_exp(-(float)*tau - 0.5f * sigma_t * part);
+        single_add(f, i < parts ? w->t + part * (float)i : w->t + length,
+                   sigma_s * part * seen);
+        *tau += (double)(sigma_t * part);
+    }
+}
+
+/* False where nothing is scattered. Wherever the media may scatter the profile
+ * is above 0. */
+HD bool single_look(const flat_scene *s, const path_state *p, float t1,
+                    single_profile *f)
+{
+    const float surely = 0.1f, enough = 30.0f;
+    media_walk w;
+    double tau = 0.0;
+    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    p->count->overflow += w.overflow;
+    f->count = 0;
+    f->t[0] = p->after.t;
+    f->sum[0] = 0.0f;
+    if (w.count == 0)
+        return false;
+    do {
+        bool even;
+        float all, bound = single_bound(s, &w, &even);
+        float middle = path_middle(s, p, &w, &all);
+        single_piece(f, &w, middle + surely * (bound - middle), all, even,
+                     &tau);
+    } while (tau < (double)enough && walk_next(s, &w));
+    return f->sum[f->count] > 0.0f;
+}
+
+/* The sum up to t, which lies within the profile. */
+HD float single_sum(const single_profile *f, float t)
+{
+    int i = 0;
+    while (i < f->count - 1 && t >= f->t[i + 1])
+        i++;
+    float share = (t - f->t[i]) / (f->t[i + 1] - f->t[i]);
+    return f->sum[i] + hd_min(share, 1.0f) * (f->sum[i + 1] - f->sum[i]);
+}
+
+/* Where the sum is `sum`; the profile's height there in *density. */
+HD float single_place(const single_profile *f, float sum, float *density)
+{
+    int i = 0;
+    while (i < f->count - 1 && sum >= f->sum[i + 1])
+        i++;
+    float height = f->sum[i + 1] - f->sum[i];
+    float length = f->t[i + 1] - f->t[i];
+    float share = height > 0.0f ? (sum - f->sum[i]) / height : 0.5f;
+    *density = length > 0.0f ? height / length : 0.0f;
+    return f->t[i] + hd_min(hd_max(share, 0.0f), 1.0f) * length;
+}
+
+/* ---- the stretch that a light reaches ---------------------------------- */
+
+/* Where a ray leaves a spotlight's cone or a cylinder's tube: the roots of a
+ * quadratic a t^2 + 2 b t + c. */
+HD int single_roots(float a, float b, float c, float *t)
+{
+    float root = b * b - a * c;
+    if (!(root > 0.0f))
+        return 0;
+    float q = -(b + copysignf(sqrtf(root), b));
+    t[0] = q / a;
+    t[1] = c / q;
+    return 2;
+}
+
+/* The same of the ray o + t d and a light; how many, and 0 where it may shine
+ * all along. */
+HD int single_edges(const flat_light *l, vec3 o, vec3 d, float *t)
+{
+    vec3 from = vec3_sub(o, l->position);
+    float along = vec3_dot(from, l->axis), turn = vec3_dot(d, l->axis);
+    if (l->kind == LIGHT_SPOT && !l->parallel) {
+        float edge = hd_max(hd_min(l->outer, l->inner), 0.0f);
+        float e = edge * edge;
+        return single_roots(turn * turn - e,
+                            turn * along - e * vec3_dot(from, d),
+                            along * along - e * vec3_dot(from, from), t);
+    }
+    if (l->kind != LIGHT_CYLINDER)
+        return 0;
+    vec3 off = vec3_mad(from, -along, l->axis);
+    vec3 move = vec3_mad(d, -turn, l->axis);
+    int n = single_roots(vec3_dot(move, move), vec3_dot(off, move),
+                         vec3_dot(off, off) - l->outer * l->outer, t);
+    t[n] = -along / turn;
+    return n + 1;
+}
+
+/* Cuts [*a, *b] to where the light may shine; false: nowhere. What is lit is
+ * convex: it lies between some of the edges, whose middles tell. */
+HD bool single_lit(const flat_scene *s, const flat_light *l, vec3 o, vec3 d,
+                   float *a, float *b)
+{
+    if ((l->kind == LIGHT_POINT) || (l->kind == LIGHT_SPOT && l->parallel) ||
+        l->illumination)
+        return true;
+    float t[5], first = INFINITY, last = -INFINITY;
+    int n = 1;
+    t[0] = *a;
+    float edge[3];
+    int edges = single_edges(l, o, d, edge);
+    for (int i = 0; i < edges; i++) {
+        if (!(edge[i] > *a && edge[i] < *b))
+            continue;
+        int k = n++;
+        for (; k > 1 && t[k - 1] > edge[i]; k--)
+            t[k] = t[k - 1];
+        t[k] = edge[i];
+    }
+    t[n] = *b;
+    for (int i = 0; i < n; i++) {
+        vec3 x = vec3_mad(o, 0.5f * (t[i] + t[i + 1]), d);
+        float distance;
+        vec3 wi = light_toward(l, l->position, x, &distance);
+        if (!(light_factor(s, l, l->position, x, wi, distance) > 0.0f))
+            continue;
+        first = hd_min(first, t[i]);
+        last = hd_max(last, t[i + 1]);
+    }
+    if (!(first < last))
+        return false;
+    /* Rounding of the edges. */
+    float slack = 1e-3f * (last - first);
+    *a = hd_max(*a, first - slack);
+    *b = hd_min(*b, last + slack);
+    return true;
+}
+
+/* ---- light ------------------------------------------------------------- */
+
+/* Adds what light i gives at distance t, over the density of its choice. */
+HD void single_point(const flat_scene *s, path_state *p, int i, float t,
+                     float density)
+{
+    path_vertex v;
+    light_sample l;
+    float sigma_s;
+    v.p = vec3_mad(p->o, t, p->d);
+    v.surface = 0;
+    if (!light_reach(s, i, v.p, &p->random, &l))
+        return;
+    rgb value = rgb_scale(path_scattered(s, p, t, l.wi, &sigma_s),
+                          1.0f / density);
+    p->count->lookups++;
+    if (rgb_is_black(value))
+        return;
+    value = rgb_mul(value, path_lit(s, p, &v, &l));
+    if (rgb_is_black(value))
+        return;
+    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
+        p->after.t, t, &p->random, p->count));
+    p->count->collisions++;
+    path_add(p, rgb_mul(p->beta, value));
+}
+
+/* All of light i along the profile. */
+HD void single_light(const flat_scene *s, path_state *p,
+                     const single_profile *f, int i, float u)
+{
+    const flat_light *l = &s->lights[i];
+    float a = f->t[0], b = f->t[f->count], density;
+    if (!l->media_interaction || rgb_is_black(l->color) ||
+        !single_lit(s, l, p->o, p->d, &a, &b))
+        return;
+    float before = single_sum(f, a), all = single_sum(f, b) - before;
+    if (!(all > 0.0f))
+        return;
+    for (int k = 0; k < SINGLE_POINTS; k++) {
+        float share = ((float)k + u) / (float)SINGLE_POINTS;
+        float t = single_place(f, before + share * all, &density);
+        if (density > 0.0f)
+            single_point(s, p, i, t,
+                         density * (float)SINGLE_POINTS / all);
+    }
+}
+
+/* What the media of a segment scatter, and what passes them: black where that
+ * is nothing. */
+HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
+{
+    single_profile f;
+    if (single_look(s, p, h->t, &f))
+        for (int i = 0; i < (int)s->lights_count; i++) {
+            float u = p->along + 0.61803399f * (float)i;
+            single_light(s, p, &f, i, u - (float)hd_floor(u));
+        }
+    if (h->shape >= 0)
+        p->beta = rgb_mul(p->beta, track_transmittance(s, &p->inside, true,
+            p->o, p->d, p->after.t, h->t, &p->random, p->count));
+}
+
+/* Whether the eye's rays need no flights. */
+HD bool single_does(const flat_scene *s)
+{
+    return s->scatters && !s->media_multiple && !s->environment &&
+           !s->local_lights;
+}
+
+/* In place of path_segment. */
+HD bool single_segment(const flat_scene *s, path_state *p,
+                       track_counters *count)
+{
+    if (!p->straight || !single_does(s))
+        return path_segment(s, p, count);
+    p->count = count;
+    bvh_ray r = bvh_ray_make(p->o, p->d);
+    p->count->rays++;
+    ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
+    if (h.shape < 0)
+        container_leave_bounded(s, &p->inside);
+    single_media(s, p, &h);
+    return h.shape >= 0 && !rgb_is_black(p->beta) &&
+           path_surface(s, p, &r, &h);
+}
+
+#endif
