@@ -708,6 +708,13 @@ struct brume_progress {
     const char *item;           /* what is counted: "paths"                */
 };
 
+/* How surfaces are found: pictures are the same. BOTH: a kd-tree of what stands
+ * still from frame to frame, kept in a brume_still; a BVH of the rest. */
+enum brume_tree { BRUME_TREE_BVH, BRUME_TREE_KD, BRUME_TREE_BOTH };
+struct brume_still;
+BRUME_API struct brume_still *brume_still_new(struct brume_error *err);
+BRUME_API void brume_still_free(struct brume_still *still);
+
 /* Rendering goes on until `spp` samples, or the estimated relative error
  * `error`, or `seconds`, whichever are given (> 0), the first to be met. */
 struct brume_options {
@@ -728,10 +735,13 @@ struct brume_options {
     bool omit_background;       /* radiance without the background that the
                                    camera sees past the scene, for pictures
                                    with alpha                              */
+    enum brume_tree tree;
+    int tree_stack;             /* entries of the kd-tree's, 1 to 32; 0: 4 */
+    struct brume_still *still;  /* of BRUME_TREE_BOTH, or NULL             */
 };
 #define BRUME_OPTIONS_INIT                                                    \
     {640, 480, 0, 0, 0, 0, BRUME_INTEGRATOR_PATH, BRUME_BACKEND_AUTO, 0, 0,   \
-     0, 0, 0, 0, 0, NULL, NULL, NULL, false}
+     0, 0, 0, 0, 0, NULL, NULL, NULL, false, BRUME_TREE_BVH, 0, NULL}
 /* The error aimed at when neither spp, error nor seconds is given, and the
  * most samples that an error is chased with. */
 #define BRUME_DEFAULT_ERROR 0.05

@@ -180,6 +180,16 @@ static bool make_node(struct flat *f, struct bvh_item *items,
     return true;
 }
 
+void bvh_widen(struct bvh_item *item)
+{
+    for (int k = 0; k < 3; k++) {
+        float size = fmaxf(fabsf(item->lo[k]), fabsf(item->hi[k]));
+        float slack = 2e-6f * size + 2e-7f;
+        item->lo[k] -= slack;
+        item->hi[k] += slack;
+    }
+}
+
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err)
 {
@@ -190,6 +200,8 @@ bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
         return false;
     struct task stack[2 * BVH_STACK] = {{0, count, root, 0}};
     int tasks = 1;
+    for (size_t i = 0; i < count; i++)
+        bvh_widen(&items[i]);
     while (tasks > 0)
         if (tasks--, !make_node(flat, items, stack, &tasks, stack[tasks], err))
             return false;

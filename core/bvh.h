@@ -9,8 +9,13 @@ struct bvh_item {
     uint32_t name;          /* what bvh_items stores                       */
 };
 
+/* Widens bounds by what a ray's hit may lie outside of its item: without it a
+ * tree could miss what a loop over all items would find. */
+void bvh_widen(struct bvh_item *item);
+
 /* Adds a tree to flat->bvh and flat->bvh_items, whose root is the next node;
- * reorders `items`. The tree is at most BVH_STACK deep and the same for the
+ * reorders `items` and
+ * widens their bounds. The tree is at most BVH_STACK deep and the same for the
  * same items in the same order. */
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err);

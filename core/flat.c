@@ -36,7 +36,10 @@ uint64_t flat_bytes(const struct flat *flat)
 
 struct flat *flat_new(struct brume_error *err)
 {
-    return memory_new(1, sizeof(struct flat), err);
+    struct flat *flat = memory_new(1, sizeof *flat, err);
+    if (flat)
+        flat->view.bvh_root = -1;
+    return flat;
 }
 
 void flat_free(struct flat *flat)

@@ -4,11 +4,15 @@
 #include <stdio.h>
 #include <string.h>
 #include "core/backend.h"
+#include "core/physics/kdtree.h"
 #include "core/prepare.h"
 #include "lib/timer.h"
 
 /* Samples of the first pass: enough for a first estimate of the error. */
 #define FIRST_PASS 8u
+
+/* Entries of a kd-tree's stack, if no other number is asked for. */
+#define DEFAULT_STACK 4
 
 struct frame_job {
     const struct brume_options *options;
@@ -230,7 +234,18 @@ static struct flat *prepare(brume_scene *scene,
     struct prepare p = {.scene = scene,
                         .threads = options->threads,
                         .warn = options->warn,
-                        .user = options->user};
+                        .user = options->user,
+                        .tree = options->tree,
+                        .tree_stack = options->tree_stack,
+                        .still = options->still};
+    if (p.tree_stack == 0)
+        p.tree_stack = DEFAULT_STACK;
+    if (p.tree_stack < 1 || p.tree_stack > KD_MAX_STACK) {
+        brume_fail(err, BRUME_ERR_USAGE,
+                   "a kd-tree's stack of %d entries; it has 1 to %d",
+                   p.tree_stack, KD_MAX_STACK);
+        return NULL;
+    }
     return prepare_scene(&p, err);
 }
 

@@ -35,7 +35,7 @@ struct stages plan_stages(const struct flat *f)
 {
     struct stages s;
     s.load = f->grids_count > 0;
-    s.accel = f->bvh_count > 0;
+    s.accel = f->bvh_count > 0 || f->kd_count > 0;
     s.glow = f->glows_count > 0;
     s.march = true;
     s.path = has_surfaces(f) || (f->view.scatters && is_lit(f));
@@ -84,6 +84,16 @@ static const char *glow_reason(const struct flat *f, const struct stages *s)
     if (!f->view.media_multiple && !f->view.surfaces_indirect)
         return "the transport follows no light beyond the first event";
     return "emission has no grid, or is zero";
+}
+
+static const char *accel_reason(const struct flat *f)
+{
+    if (f->bvh_count > 0 && f->kd_count > 0)
+        return "there is bounded geometry, in a BVH and a kd-tree";
+    if (f->bvh_count > 0)
+        return "there is bounded geometry, in a BVH";
+    return f->kd_count > 0 ? "there is bounded geometry, in a kd-tree"
+                           : "there is no bounded geometry";
 }
 
 static uint64_t grid_bytes(const struct flat *f)
@@ -175,10 +185,10 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
     add_stage(plan, "load", s.load, grid_bytes(f),
               s.load ? "media read grids" : "no medium reads a grid");
     add_stage(plan, "accel", s.accel,
-              f->bvh_count * sizeof *f->bvh +
+              f->bvh_count * sizeof *f->bvh + f->kd_count * sizeof *f->kd +
+                  (f->bvh_items_count + f->kd_items_count) * 4u +
                   f->triangles_count * sizeof *f->triangles,
-              s.accel ? "there is bounded geometry"
-                      : "there is no bounded geometry");
+              accel_reason(f));
     add_stage(plan, "glow", s.glow, f->glow_voxels_count * sizeof(float),
               glow_reason(f, &s));
     add_stage(plan, "march", s.march, pixels * sizeof(film_pixel),

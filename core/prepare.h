@@ -11,6 +11,9 @@ struct prepare {
     int threads;
     void (*warn)(void *user, const char *text);     /* may be NULL */
     void *user;
+    enum brume_tree tree;
+    int tree_stack;         /* entries                                     */
+    struct brume_still *still;
     bool exact;             /* for queries: all numbers in double, and trees
                                of single shapes too                        */
 };

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/bvh.h"
+#include "core/kdtree.h"
 #include "core/physics/bvh.h"
 #include "core/prepare.h"
+#include "core/still.h"
 
 static vec3 to_vec3(const double p[3])
 {
@@ -259,6 +261,27 @@ static bool is_sought(const struct flat *f, size_t i)
     return seen || csg_has_media(&f->view, s);
 }
 
+static bool build_tree(const struct prepare *job, struct bvh_item *items,
+                       size_t count, struct brume_error *err)
+{
+    struct flat *f = job->flat;
+    size_t first = f->bvh_count;
+    bool good = false;
+    switch (job->tree) {
+    case BRUME_TREE_BVH:
+        good = bvh_build(f, items, count, err);
+        break;
+    case BRUME_TREE_KD:
+        good = kd_build(f, items, count, job->tree_stack, err);
+        break;
+    case BRUME_TREE_BOTH:
+        good = still_build(job->still, f, items, count, job->tree_stack, err);
+        break;
+    }
+    f->view.bvh_root = f->bvh_count > first ? (int32_t)first : -1;
+    return good;
+}
+
 /* The tree of all that rays look for comes first. */
 static bool make_tree(const struct prepare *job, const struct assembly *a,
                       struct bvh_item *items, struct brume_error *err)
@@ -282,7 +305,7 @@ static bool make_tree(const struct prepare *job, const struct assembly *a,
     }
     for (size_t i = 0; i < f->triangles_count; i++)
         triangle_item(f, i, &items[n++]);
-    return bvh_build(f, items, n, err);
+    return build_tree(job, items, n, err);
 }
 
 /* Meshes whose inside is asked for have trees of their own. */

@@ -242,7 +242,8 @@ static bool add_rows(struct sweep *s, struct brume_error *err)
         if (m->only < 0 || (int)measure_series[i].integrator == m->only)
             s->next[i] = FIRST_SPP;
     for (int i; m->rows < MEASURE_MAX_ROWS && (i = soonest(s)) >= 0;) {
-        if (timer_seconds() - s->start + s->wait[i] > m->budget)
+        double end = timer_seconds() - s->start + s->wait[i];
+        if (m->rows > 0 && end > m->budget)
             s->next[i] = 0;
         else if (!add_row(s, i, err))
             return false;

@@ -59,9 +59,10 @@ struct measure {
     struct measure_advice advice[MEASURE_GOALS];
 };
 
-/* Renders the reference, or reads it, then the rows while the budget lasts;
- * the reference and the table are on disk as soon as they are there. False
- * with err set: of the picture's size or file, of rendering, BRUME_STOPPED. */
+/* Renders the reference, or reads it, then rows, one at least, while the
+ * budget lasts; the reference and the table are on disk as soon as they are
+ * there. False with err set: of the picture's size or file, of rendering,
+ * BRUME_STOPPED. */
 bool measure_run(struct measure *m, brume_scene *scene,
                  struct brume_error *err);
 

@@ -23,6 +23,13 @@ static const struct option_word integrator_words[] = {
     {NULL, 0, false},
 };
 
+static const struct option_word tree_words[] = {
+    {"bvh", BRUME_TREE_BVH, false},
+    {"kd", BRUME_TREE_KD, false},
+    {"both", BRUME_TREE_BOTH, false},
+    {NULL, 0, false},
+};
+
 static const struct option_word transport_words[] = {
     {"pov", 0, false},
     {"full", 1, false},
@@ -211,6 +218,10 @@ const struct option option_table[] = {
     { .plus = "WT", .ini = "Work_Threads", .name = "threads", .value = "n",
       .set = set_integer, .at = AT(threads), .low = 0, .high = MAX_THREADS,
       .help = "0: as many as processors" },
+    { .name = "tree", .value = "name", .set = set_word, .at = AT(tree),
+      .words = tree_words, .help = "bvh, kd or both: how surfaces are found" },
+    { .name = "stack", .value = "n", .set = set_integer, .at = AT(tree_stack),
+      .low = 1, .high = 32, .initial = 4, .help = "of the kd-tree" },
     { .name = "seed", .value = "n", .set = set_unsigned, .at = AT(seed),
       .help = "of the random numbers" },
     { .name = "memory", .value = "bytes", .set = set_bytes, .at = AT(memory),

@@ -77,6 +77,8 @@ struct options {
     enum brume_backend backend;
     bool has_integrator;
     enum brume_integrator integrator;
+    enum brume_tree tree;
+    int tree_stack;
     bool full_transport;
     int spp;
     double error, seconds;

@@ -120,7 +120,9 @@ static bool begin(struct reel *reel, struct brume_error *err)
         !find_scene(reel, err) || !find_folders(reel, err))
         return false;
     warn_of_extension(reel);
-    return true;
+    if (reel->options->tree == BRUME_TREE_BOTH)
+        reel->still = brume_still_new(err);
+    return reel->options->tree != BRUME_TREE_BOTH || reel->still;
 }
 
 /* ---- one frame --------------------------------------------------------- */
@@ -189,6 +191,9 @@ static struct brume_options render_options(struct reel *reel, int number,
     r.spp = o->spp;
     r.error = chosen ? o->error : scene->accuracy;
     r.seconds = chosen ? o->seconds : scene->time_limit;
+    r.tree = o->tree;
+    r.tree_stack = o->tree_stack;
+    r.still = reel->still;
     r.threads = o->threads;
     r.seed = o->seed;
     r.frame = (uint32_t)number;
@@ -419,5 +424,6 @@ enum brume_code reel_run(struct reel *reel, struct options *options,
 void reel_release(struct reel *reel)
 {
     parse_written_release(&reel->written);
+    brume_still_free(reel->still);
     arena_release(&reel->arena);
 }

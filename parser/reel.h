@@ -49,6 +49,7 @@ struct reel {
     const char *const *library, *const *allow_write;
     size_t libraries, allow_writes;
     struct parse_written written;
+    struct brume_still *still;      /* of --tree both                      */
     int region[4];
 };
 

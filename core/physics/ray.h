@@ -75,10 +75,21 @@ HD bvh_ray bvh_ray_make(real3 o, real3 d)
     return r;
 }
 
-/* Entry distance of the box within [t_min, t_max], t_min >= 0; infinite if
- * missed. The far side is widened by the rounding of the slab test (Ize
- * 2013). */
-HD real bvh_enter(const bvh_node *n, const bvh_ray *r, real t_min, real t_max)
+/* What the distance of a hit may be off by, computed from corners about a unit
+ * away: boxes count as touched this much before and behind. */
+HD real ray_slack(real t)
+{
+#ifdef PHYSICS_DOUBLE
+    return 1e-13 * (1 + t);
+#else
+    return 2e-6f * (1 + t);
+#endif
+}
+
+/* Distances at which the line is in the box; the far side is widened by the
+ * rounding of the slab test (Ize 2013). */
+HD void bvh_slabs(const bvh_node *n, const bvh_ray *r, real *enter,
+                  real *leave)
 {
     const real wider = REAL(1.0000004);
     real ax = (n->lo[0] - r->o.x) * r->inverse.x;
@@ -87,11 +98,21 @@ HD real bvh_enter(const bvh_node *n, const bvh_ray *r, real t_min, real t_max)
     real by = (n->hi[1] - r->o.y) * r->inverse.y;
     real az = (n->lo[2] - r->o.z) * r->inverse.z;
     real bz = (n->hi[2] - r->o.z) * r->inverse.z;
-    real enter = real_max(real_max(real_min(ax, bx), real_min(ay, by)),
-                          real_max(real_min(az, bz), t_min));
-    real leave = real_min(real_min(real_max(ax, bx), real_max(ay, by)),
-                          real_max(az, bz));
-    return enter <= real_min(leave * wider, t_max) ? enter : INFINITY;
+    *enter = real_max(real_max(real_min(ax, bx), real_min(ay, by)),
+                      real_min(az, bz));
+    *leave = wider * real_min(real_min(real_max(ax, bx), real_max(ay, by)),
+                              real_max(az, bz));
+}
+
+/* Entry distance of the box within [t_min, t_max], t_min >= 0; infinite if
+ * missed. */
+HD real bvh_enter(const bvh_node *n, const bvh_ray *r, real t_min, real t_max)
+{
+    real enter, leave;
+    bvh_slabs(n, r, &enter, &leave);
+    bool touched = enter <= leave && enter <= t_max + ray_slack(t_max) &&
+                   leave >= t_min - ray_slack(t_min);
+    return touched ? real_max(enter, t_min) : INFINITY;
 }
 
 #endif

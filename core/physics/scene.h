@@ -207,6 +207,16 @@ typedef struct {
     uint32_t count;
 } bvh_node;
 
+/* Node of the kd-tree. A leaf has kind - KD_LEAF items from `first` of
+ * kd_items; an inner node is split across axis `kind`, and its children are
+ * `first`, below, and `first` + 1. */
+enum { KD_LEAF = 3 };
+
+typedef struct {
+    float split;
+    uint32_t first, kind;
+} kd_node;
+
 #define SCENE_ARRAYS(X)                                                       \
     X(flat_grid, grids)                                                       \
     X(int32_t, slots)                                                         \
@@ -239,6 +249,8 @@ typedef struct {
     X(sky_texel, sky_texels)                                                  \
     X(bvh_node, bvh)                                                          \
     X(uint32_t, bvh_items)      /* shape, or shapes_count + triangle */       \
+    X(kd_node, kd)                                                            \
+    X(uint32_t, kd_items)       /* as bvh_items */                            \
     X(blackbody_table, blackbody)                                             \
     X(int32_t, camera_containers)   /* the shapes that hold the eye */
 
@@ -253,6 +265,9 @@ typedef struct {
     int32_t media_multiple, surfaces_indirect, environment, physical_units;
     int32_t scatters;       /* some medium has sigma_s > 0                 */
     int32_t local_lights;   /* some light is local                         */
+    int32_t bvh_root;       /* of the BVH of what rays look for, or -1     */
+    int32_t kd_stack;       /* entries of the ring that kd_search keeps    */
+    bvh_node kd_box;        /* what the kd-tree is in                      */
     const void *host_grids; /* of queries: the scene's (machine.h)         */
     float unit;             /* unit-space lengths per scene unit           */
     float far;              /* where rays end                              */

@@ -80,6 +80,11 @@ sed 's/relativeError/relativeOther/' truth.exr >plain.exr
 measure slab.pov --budget 0.3 --reference plain.exr
 prints 'its noise is not known'
 
+new_case 'there is a row however short the time'
+measure slab.pov --budget 0.001 +Oshort
+exits 0
+[ "$(wc -l <short.csv)" -ge 2 ] || complain 'no row'
+
 new_case 'the first frame of a film is measured'
 measure slab.pov --budget 0.2 +KFF3 -F
 exits 0

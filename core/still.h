@@ -1,0 +1,26 @@
+/* still.h - what stood still from frame to frame of a film, by the bounds of
+ * its items, and the kd-tree over it. */
+#ifndef CORE_STILL_H
+#define CORE_STILL_H
+#include "core/brume.h"
+#include "core/bvh.h"
+
+struct brume_still {
+    uint64_t *before;       /* of the last frame's items, sorted           */
+    size_t befores, before_room;
+    struct bvh_item *item;  /* what the tree below is over                 */
+    size_t items, item_room;
+    kd_node *node;
+    uint32_t *reference;    /* numbers of items                            */
+    size_t nodes, references;
+    bvh_node box;
+    int builds;             /* of the tree, so far                         */
+};
+
+/* Builds the BVH of what was not there in the frame before, and takes over or
+ * builds the kd-tree of what was; reorders `items`. `still` may be NULL: all
+ * is new. */
+bool still_build(struct brume_still *still, struct flat *flat,
+                 struct bvh_item *items, size_t count, int stack,
+                 struct brume_error *err);
+#endif

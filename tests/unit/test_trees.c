@@ -1,0 +1,266 @@
+/* BVH and kd-tree find what a loop over all triangles finds, in its order. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include "core/still.h"
+#include "tests/unit/tree_meshes.h"
+
+static const char spot[] = "scenes/campfire/spot.ply";
+
+enum { SCENES = 6 };
+
+/* The same mesh in all ways; the first has no tree. */
+struct scenes {
+    struct flat *flat[SCENES];
+};
+
+static struct scenes make_scenes(const struct triangles *t)
+{
+    static const enum tree tree[] = {TREE_NONE, TREE_BVH, TREE_KD,
+                                     TREE_KD,   TREE_KD,  TREE_BOTH};
+    static const int stack[] = {1, 1, 1, 4, KD_MAX_STACK, 3};
+    struct scenes s;
+    for (int i = 0; i < SCENES; i++) {
+        struct brume_error err = {0};
+        s.flat[i] = tree_scene(t, tree[i], stack[i], &err);
+        assert_non_null(s.flat[i]);
+    }
+    return s;
+}
+
+static void free_scenes(struct scenes *s)
+{
+    for (int i = 0; i < SCENES; i++)
+        flat_free(s->flat[i]);
+}
+
+static ray_hit nearest_of_all(const flat_scene *s, const bvh_ray *r,
+                              const ray_hit *after)
+{
+    ray_hit best = hit_none(INFINITY);
+    best.key = 0;
+    for (uint64_t i = 0; i < s->triangles_count; i++)
+        item_hit_triangle(s, r, i, after, &best);
+    return best;
+}
+
+/* Follows rays through up to `deep` hits in every scene from `first` on. */
+static void compare(const struct triangles *t, int first, uint64_t rays,
+                    int deep)
+{
+    struct scenes s = make_scenes(t);
+    uint64_t hits = 0;
+    for (uint64_t i = 0; i < rays; i++) {
+        bvh_ray r = tree_ray(t, i);
+        ray_hit after = hit_start(0.0f);
+        for (int k = 0; k < deep; k++) {
+            ray_hit want = first == 0
+                               ? nearest_of_all(&s.flat[0]->view, &r, &after)
+                               : bvh_nearest(&s.flat[1]->view, &r, &after,
+                                             INFINITY);
+            for (int n = 1; n < SCENES; n++) {
+                ray_hit got = bvh_nearest(&s.flat[n]->view, &r, &after,
+                                          INFINITY);
+                if (!same_hit(&got, &want))
+                    fail_msg("scene %d, ray %d, hit %d: t %.9g of triangle "
+                             "%d, not %.9g of %d",
+                             n, (int)i, k, (double)got.t, (int)got.triangle,
+                             (double)want.t, (int)want.triangle);
+            }
+            if (want.shape < 0)
+                break;
+            after = want;
+            hits++;
+        }
+    }
+    assert_true(hits > rays / 2);
+    free_scenes(&s);
+}
+
+static struct triangles load(void)
+{
+    struct triangles t = {NULL, 0};
+    struct brume_error err = {0};
+    assert_true(triangles_load(&t, spot, &err));
+    assert_int_equal(t.count, 5856);
+    return t;
+}
+
+static void test_trees__all_triangles(void **state)
+{
+    (void)state;
+    struct triangles t = load();
+    compare(&t, 0, 480, 4);
+    free(t.corner);
+}
+
+static void test_trees__degenerate(void **state)
+{
+    (void)state;
+    struct triangles t = triangles_degenerate(1000);
+    compare(&t, 0, 1600, 6);
+    free(t.corner);
+}
+
+static void test_trees__divided(void **state)
+{
+    (void)state;
+    struct triangles t = load(), four = triangles_divide(&t);
+    compare(&four, 1, 8000, 4);
+    free(t.corner);
+    free(four.corner);
+}
+
+static void test_trees__few(void **state)
+{
+    (void)state;
+    for (size_t n = 1; n < 6; n++) {
+        struct triangles t = {NULL, 0};
+        for (size_t i = 0; i < n; i++)
+            triangles_add(&t, vec3_make(0, 0, 0), vec3_make(0.4f, 0, 0),
+                          vec3_make(0, 0.4f, 0.1f * (float)(i / 2)));
+        struct scenes s = make_scenes(&t);
+        for (uint64_t i = 0; i < 64; i++) {
+            bvh_ray r = tree_ray(&t, i);
+            ray_hit after = hit_start(0.0f);
+            ray_hit want = nearest_of_all(&s.flat[0]->view, &r, &after);
+            for (int k = 1; k < SCENES; k++) {
+                ray_hit got = bvh_nearest(&s.flat[k]->view, &r, &after,
+                                          INFINITY);
+                assert_true(same_hit(&got, &want));
+            }
+        }
+        free_scenes(&s);
+        free(t.corner);
+    }
+}
+
+/* Nothing in it, or not reached within t_max. */
+static void test_trees__nothing(void **state)
+{
+    (void)state;
+    struct triangles t = {NULL, 0};
+    ray_hit after = hit_start(0.0f);
+    bvh_ray r = bvh_ray_make(vec3_make(0, 0, -1), vec3_make(0, 0, 1));
+    for (int n = 0; n < 2; n++) {
+        struct scenes s = make_scenes(&t);
+        for (int k = 1; k < SCENES; k++)
+            assert_int_equal(
+                bvh_nearest(&s.flat[k]->view, &r, &after, n ? 0.5f : INFINITY)
+                    .shape,
+                -1);
+        free_scenes(&s);
+        triangles_add(&t, vec3_make(-1, -1, 0), vec3_make(1, -1, 0),
+                      vec3_make(0, 1, 0));
+    }
+    free(t.corner);
+}
+
+/* A tree of which a leaf holds all would do all of the above. */
+static void test_trees__kd_divides(void **state)
+{
+    (void)state;
+    struct triangles t = load();
+    struct brume_error err = {0};
+    struct flat *f = tree_scene(&t, TREE_KD, 4, &err);
+    uint32_t most = 0;
+    assert_true(f->kd_items_count < 8 * t.count);
+    for (size_t i = 0; i < f->kd_count; i++)
+        if (f->kd[i].kind >= KD_LEAF && f->kd[i].kind - KD_LEAF > most)
+            most = f->kd[i].kind - KD_LEAF;
+    assert_in_range(most, 1, 64);
+    flat_free(f);
+    free(t.corner);
+}
+
+/* ---- a film ------------------------------------------------------------- */
+
+/* A frame of a mesh of which the triangles from `moving` on are shifted. */
+static struct flat *film_frame(struct brume_still *still, struct triangles *t,
+                               size_t moving, float shift)
+{
+    struct brume_error err = {0};
+    struct flat *f = tree_scene(t, TREE_NONE, 1, &err);
+    struct bvh_item *item = malloc(t->count * sizeof *item);
+    for (size_t i = 0; i < t->count; i++) {
+        for (int k = 0; i >= moving && k < 3; k++)
+            f->triangles[i].p[k].x += shift;
+        item[i] = triangle_bounds(f->triangles[i].p, (uint32_t)(1 + i));
+    }
+    assert_true(still_build(still, f, item, t->count, 4, &err));
+    f->view.bvh_root = f->bvh_count > 0 ? 0 : -1;
+    flat_view(f);
+    free(item);
+    return f;
+}
+
+static void assert_finds_all(const struct flat *f, const struct triangles *t)
+{
+    for (uint64_t i = 0; i < 200; i++) {
+        bvh_ray r = tree_ray(t, i);
+        ray_hit after = hit_start(0.0f);
+        ray_hit want = nearest_of_all(&f->view, &r, &after);
+        ray_hit got = bvh_nearest(&f->view, &r, &after, INFINITY);
+        assert_true(same_hit(&got, &want));
+    }
+}
+
+/* Of frame after frame: what is in the kd-tree, how often it was built. */
+static void test_still__film(void **state)
+{
+    static const struct {
+        float shift;
+        size_t moving, nodes; /* triangles; 0: no kd-tree            */
+        int builds;
+    } frame[] = {{0.0f, 800, 0, 0}, {0.1f, 800, 1, 1}, {0.2f, 800, 1, 1},
+                 {0.3f, 400, 1, 2}, {0.4f, 400, 1, 2}, {0.4f, 400, 1, 3},
+                 {0.4f, 400, 1, 3}};
+    (void)state;
+    struct brume_error err = {0};
+    struct brume_still *still = brume_still_new(&err);
+    struct triangles t = triangles_degenerate(1000);
+    for (size_t i = 0; i < sizeof frame / sizeof *frame; i++) {
+        struct flat *f = film_frame(still, &t, frame[i].moving, frame[i].shift);
+        assert_int_equal(f->kd_count > 0, frame[i].nodes);
+        assert_int_equal(still->builds, frame[i].builds);
+        assert_finds_all(f, &t);
+        flat_free(f);
+    }
+    brume_still_free(still);
+    free(t.corner);
+}
+
+/* Things that came and went give the others other numbers. */
+static void test_still__renumbered(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    struct brume_still *still = brume_still_new(&err);
+    struct triangles t = triangles_degenerate(600);
+    for (int i = 0; i < 4; i++) {
+        struct triangles part = {t.corner + (i == 2 ? 100 : 0),
+                                 i == 3 ? 500 : 600 - (i == 2 ? 100 : 0)};
+        struct flat *f = film_frame(still, &part, 600, 0.0f);
+        assert_finds_all(f, &part);
+        flat_free(f);
+    }
+    brume_still_free(still);
+    free(t.corner);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_trees__all_triangles),
+        cmocka_unit_test(test_trees__degenerate),
+        cmocka_unit_test(test_trees__divided),
+        cmocka_unit_test(test_trees__few),
+        cmocka_unit_test(test_trees__nothing),
+        cmocka_unit_test(test_trees__kd_divides),
+        cmocka_unit_test(test_still__film),
+        cmocka_unit_test(test_still__renumbered),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
