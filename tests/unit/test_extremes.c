@@ -177,7 +177,7 @@ static struct estimate texel_through(double g, double depth)
     assert_true(brume_set_camera(s, &c, truth_error()));
     assert_true(brume_set_sky(s, &sky, truth_error()));
     truth_fill(s, truth_box(50.0, 0.0, 1.0), &m);
-    return truth_render(s, 16, 64);
+    return truth_render(s, 16, 512);
 }
 
 /* Peaks as narrow as floats have them find it with densities from 1e7 to
