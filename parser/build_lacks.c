@@ -57,10 +57,10 @@ static bool has_pattern(const struct patterned *on)
 static void lacks_of_texture(struct parser *parser,
                              const struct texture *texture, struct location at)
 {
-    if (texture->below)
+    if (texture->below && surface_is_varied(texture))
         build_lacks(parser, "the finishes of lower layers", at);
     for (; texture; texture = texture->below) {
-        if (has_pattern(&texture->on))
+        if (has_pattern(&texture->on) && texture->varied)
             build_lacks(parser, "finishes and normals by patterns", at);
         if (has_pattern(&texture->normal.on))
             build_lacks(parser, "normals", at);

@@ -193,6 +193,29 @@ void surface_mean_pigment(struct pigment *pigment)
         surface_mean(&pigment->on, pigment->color);
 }
 
+static bool differs(const struct texture *layer, const struct finish *from)
+{
+    const struct pattern *bumps = layer->normal.on.pattern;
+
+    return layer->varied || (bumps && bumps->kind != PATTERN_NONE) ||
+           memcmp(&layer->finish, from, sizeof *from) != 0 ||
+           (layer->below && (from->phong != 0 || from->specular != 0));
+}
+
+static bool is_other_than(const struct texture *texture,
+                          const struct finish *finish)
+{
+    for (; texture; texture = texture->below)
+        if (differs(texture, finish))
+            return true;
+    return false;
+}
+
+bool surface_is_varied(const struct texture *texture)
+{
+    return is_other_than(texture, &texture->finish);
+}
+
 void surface_mean_texture(struct texture *texture)
 {
     const struct texture *first;
@@ -203,6 +226,9 @@ void surface_mean_texture(struct texture *texture)
     texture->finish = first->finish;
     texture->pigment = first->pigment;
     surface_mean(&texture->on, texture->pigment.color);
+    texture->varied = false;
+    for (const struct map_entry *e = texture->on.map->first; e; e = e->next)
+        texture->varied |= is_other_than(e->node, &first->finish);
 }
 
 /* ---- textures ---------------------------------------------------------- */

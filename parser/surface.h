@@ -224,6 +224,7 @@ struct texture {
     struct normal normal;
     struct finish finish;
     struct patterned on;            /* of textures                         */
+    bool varied;                    /* they differ in more than pigments   */
     const struct texture *below;
     transform below_by;             /* since it was put there              */
 };
@@ -235,6 +236,9 @@ void surface_pattern_start(struct pattern *pattern, enum pattern_kind kind);
 /* The mean of what a pattern chooses from, when all is said. */
 void surface_mean_pigment(struct pigment *pigment);
 void surface_mean_texture(struct texture *texture);
+/* Whether a texture and its layers are more than colours under one finish:
+ * highlights of lower layers count as more, normals too. */
+bool surface_is_varied(const struct texture *texture);
 /* The list of a checker of two colours, which core draws; else NULL. */
 const struct map *surface_checker(const struct pigment *pigment);
 /* Of densities the first three count. */

@@ -187,6 +187,39 @@ static void what_pictures_lack(void **state)
     assert_null(first_of(DIAG_WARNING));
 }
 
+/* Colours under one finish are all that there is to draw of textures. */
+static void textures_of_one_finish_lack_nothing(void **state)
+{
+    static const char *const plain[] = {
+        "bozo texture_map { [0 pigment { rgb x }] [1 pigment { rgb y }] }",
+        "checker texture { pigment { rgb x } finish { phong 1 } }"
+        " texture { pigment { bozo } finish { phong 1 } }",
+        "bozo texture_map { [0 pigment { rgb x }] [1 checker"
+        " texture { pigment { rgb 0 } } texture { pigment { rgb 1 } }] }",
+        "pigment { rgb x } } texture { pigment { rgbt <1, 1, 1, .5> }"};
+    static const char *const varied[] = {
+        "bozo texture_map { [0 pigment { rgb x }] [1 finish { phong 1 }] }",
+        "bozo texture_map { [0 pigment { rgb x }] [1 normal { bumps }] }",
+        "bozo texture_map { [0 pigment { rgb x }] [1 checker"
+        " texture { pigment { rgb 0 } } texture { finish { ambient 1 } }] }"};
+    char text[400];
+    (void)state;
+
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
+        snprintf(text, sizeof text, "sphere { 0, 1 texture { %s } }", plain[i]);
+        scene(text);
+        assert_null(first_of(DIAG_WARNING));
+    }
+    for (size_t i = 0; i < sizeof varied / sizeof *varied; i++) {
+        snprintf(text, sizeof text, "sphere { 0, 1 texture { %s } }",
+                 varied[i]);
+        expect_warning(text, 1, 1, "finishes and normals by patterns");
+    }
+    expect_warning("sphere { 0, 1 texture { pigment { rgb x } finish { phong 1"
+                   " } } texture { pigment { rgbt 1 } finish { phong 1 } } }",
+                   1, 1, "the finishes of lower layers");
+}
+
 static void texts(void **state)
 {
     (void)state;
@@ -220,6 +253,7 @@ int main(void)
         cmocka_unit_test(groups),
         cmocka_unit_test(clips),
         cmocka_unit_test(what_pictures_lack),
+        cmocka_unit_test(textures_of_one_finish_lack_nothing),
     };
 
     return cmocka_run_group_tests_name("build_solid", tests, NULL,

@@ -185,7 +185,7 @@ static const struct words_scene words_scenes[] = {
     WORDS_LACK(BUMP_MAP, "normals",
                WORDS_WORN("normal { @bump_map { png \"tests/data/dots.png\" "
                           "% }@ }")),
-    WORDS_LACK(MATERIAL_MAP, "by patterns",
+    WORDS_LACK(MATERIAL_MAP, "pigments of some patterns",
                WORDS_WORN("texture { @material_map { png "
                           "\"tests/data/dots.png\" % texture { pigment "
                           "{ rgb x } } texture { pigment { rgb y } } }@ }")),
@@ -419,12 +419,12 @@ static const struct words_use words_uses[] = {
                WORDS_WORN("texture { material_map { png "
                           "\"tests/data/dots.png\" texture { "
                           "pigment { rgb 1 } } } }"),
-               "by patterns"),
+               "pigments of some patterns"),
     WORDS_TOLD(DENSITY, "(material_map)", "bozo", NULL, ""),
     WORDS_TOLD(PIGMENT, "(tiles)", NULL,
                WORDS_WORN("texture { tiles { texture { pigment { rgb x } } "
                           "tile2 texture { pigment { rgb y } } } }"),
-               "by patterns"),
+               "pigments of some patterns"),
     WORDS_TOLD(DENSITY, "(tiles)", "bozo", NULL, ""),
     WORDS_ANY("average", "average " WORDS_AVERAGE, "bozo"),
     WORDS_ANY("density_file", "density_file vdb \"tests/data/tiles.vdb\"",
