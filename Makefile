@@ -88,7 +88,7 @@ endif
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all unit tools fuzzers setup demo test test-all fuzz \
+.PHONY: all unit tools fuzzers setup demo test test-all fuzz bench \
         do-demo do-test do-test-all \
         lint format install bundle clean
 all: $(B)/brume
@@ -172,6 +172,11 @@ fuzz:
 	@+$(MAKE) --no-print-directory FUZZ=1 CUDA=0 WERROR=0 fuzzers
 	@B=build/fuzz tests/fuzz/run $(FUZZ_RUNS)
 
+# The published scenes, so many seconds each: tests/bench/results/.
+BENCH_SECONDS ?= 60
+bench: $(B)/brume $(B)/tests/bench/grids
+	@B=$(B) tests/bench/bench.py --budget $(BENCH_SECONDS)
+
 # ---- house-keeping
 
 lint:
@@ -181,7 +186,7 @@ format:
 	clang-format -i $$(git ls-files '*.c' '*.cc' '*.cu')
 
 # The headers lie in one folder: #include <brume/brume.h>.
-HEADERS := core/brume.h core/particles.h lib/error.h lib/grid.h lib/mesh.h
+HEADERS := core/brume.h core/brume_function.h core/particles.h lib/error.h lib/grid.h lib/mesh.h
 VERSION  = $(shell sed -n 's/^\#define BRUME_VERSION "\(.*\)"/\1/p' core/brume.h)
 ROOT     = $(DESTDIR)$(PREFIX)
 install: $(B)/brume
