@@ -76,13 +76,14 @@ static struct grid *make_grid(const struct df3 *d, enum grid_filter filter)
     struct grid *g = grid_new(origin, bricks, 0, d->err);
     if (!g)
         return NULL;
+    double first = filter == GRID_NEAREST ? 0.5 : 0;
     g->filter = filter;
     g->clip = true;
     for (int i = 0; i < 3; i++) {
-        g->clip_min[i] = -0.5;
-        g->clip_max[i] = d->size[i] - 0.5;
+        g->clip_min[i] = -first;
+        g->clip_max[i] = d->size[i] - first;
         g->to_world[i][i] = 1.0 / d->size[i];
-        g->to_world[i][3] = 0.5 / d->size[i];
+        g->to_world[i][3] = first / d->size[i];
     }
     return g;
 }

@@ -8,9 +8,9 @@
 #include "lib/grid.h"
 
 /* The file as a grid over the unit cube: value / largest integer, sample i of
- * n at (i + 1/2) / n, nothing outside the cube (clip). The outermost samples
- * are repeated once, so interpolation is constant near the faces. False sizes
- * are BRUME_ERR_FILE with the length expected and found. */
+ * n from i / n on to the next, or interpolated from i / n on and constant
+ * behind the last, as POV-Ray 3.7 has it; nothing outside the cube (clip).
+ * False sizes are BRUME_ERR_FILE with the length expected and found. */
 struct grid *df3_load(const char *path, enum grid_filter filter,
                       struct brume_error *err);
 #endif

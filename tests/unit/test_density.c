@@ -71,7 +71,7 @@ static void test_linear(void **state)
     struct brume_options o = BRUME_OPTIONS_INIT;
     struct brume_frame f;
     o.width = o.height = 20;
-    o.spp = 64;
+    o.spp = 512;
     assert_true(brume_render(s, &o, &f, truth_error()));
     for (int i = 2; i < 18; i++) {
         double lo = (i - 10) / 10.0, sum = 0;

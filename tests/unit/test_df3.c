@@ -74,9 +74,10 @@ static void check_grid(int nx, int ny, int nz, int bytes, uint32_t largest)
     assert_true(grid_sample(g, -2, 0, 0) == 0);
     assert_true(grid_sample(g, nx + 1, 0, 0) == 0);
     assert_true(g->clip);
-    assert_true(g->clip_min[0] == -0.5 && g->clip_max[1] == ny - 0.5);
+    /* POV-Ray's place of a sample: i / n, when it interpolates. */
+    assert_true(g->clip_min[0] == 0 && g->clip_max[1] == ny);
     assert_true(fabs(g->to_world[2][2] * nz - 1) < 1e-15);
-    assert_true(fabs(g->to_world[2][3] * nz - 0.5) < 1e-15);
+    assert_true(g->to_world[2][3] == 0);
     assert_true(g->to_world[0][1] == 0);
     grid_free(g);
 }
@@ -104,6 +105,8 @@ static void test_df3__full_scale_is_one(void **state)
         assert_non_null(g);
         assert_true(grid_sample(g, 0, 0, 0) == 1);
         assert_int_equal(g->filter, GRID_NEAREST);
+        assert_true(g->clip_min[0] == -0.5 && g->clip_max[1] == 0.5);
+        assert_true(g->to_world[2][3] == 0.5);
         grid_free(g);
     }
 }
