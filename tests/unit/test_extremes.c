@@ -181,16 +181,18 @@ static struct estimate texel_through(double g, double depth)
 }
 
 /* Peaks as narrow as floats have them find it with densities from 1e7 to
- * 4.5e13, the choice of the texel with 100: each has its share by their ratio,
- * as products would be infinite. Forward, all light goes on but for the tail
- * of the peak: (1 - g) / 0.06 of it misses the texel at each of five events.
- * Backward, it goes to and fro as on a line, of which 1 / (1 + tau) passes. */
+ * 4.5e13, or without end where g rounds to 1, the choice of the texel with
+ * 100: each has its share by their ratio, as products would be infinite.
+ * Forward, all light goes on but for the tail of the peak: (1 - g) / 0.06 of
+ * it misses the texel at each of five events. Backward, it goes to and fro as
+ * on a line, of which 1 / (1 + tau) passes. */
 static void extremes__peaks_and_a_sun(void **state)
 {
     (void)state;
     const double rows[][3] = {
-        {0.9999, 1.0 - 5.0 * 1e-4 / 0.06, 3e-3},
-        {0.99999994, 1.0, 1e-3},
+        {0.9999, 1.0 - 5.0 * 1e-4 / 0.06, 4e-3},
+        {0.99999994, 1.0, 4e-3},
+        {0.9999999999, 1.0, 4e-3},
         {-0.9999, 1.0 / 6.0, 0.03},
     };
     for (int i = 0; i < 3; i++) {
@@ -373,53 +375,133 @@ static void extremes__rays_on_planes(void **state)
     }
 }
 
-/* A walk that begins as good as on an edge of cells, on either side of what
- * rounding makes of it, goes on by pieces that never turn back, from its
- * beginning to its end, and through each plane once. */
-static void check_pieces(const flat_scene *s, vec3 o, vec3 d, float t0)
+/* A walk through an only shape, whose pieces never turn back, from beginning to
+ * end, and lie in their cells at both ends. */
+static void check_pieces(const flat_scene *s, vec3 o, vec3 d, float t0,
+                         float t1)
 {
     const container_set inside = {1, 0, {0}};
+    const flat_medium *m = &s->media[0];
     media_walk w;
-    int pieces = 0;
-    walk_begin(s, &w, &inside, true, o, d, t0, 20.0f);
+    walk_begin(s, &w, &inside, true, o, d, t0, t1);
     assert_int_equal(w.count, 1);
     float t = t0;
     do {
-        assert_true(w.t == t);
-        assert_true(w.t_end >= w.t);
+        const lattice_walk *l = &w.part[0];
+        assert_true(w.t == t && w.t_end >= t);
+        for (int k = 0; k < 6 && l->inside; k++) {
+            float at = k < 3 ? w.t : w.t_end;
+            field_point x = lattice_point(s, l, vec3_mad(o, at, d), at);
+            float from = 8.0f * (float)l->cell[k % 3] + m->origin[k % 3];
+            assert_in_range(l->cell[k % 3], 0, m->cells[k % 3] - 1);
+            assert_true(vec3_get(x.index, k % 3) >= from &&
+                        vec3_get(x.index, k % 3) <= from + 8.0f);
+        }
         t = w.t_end;
-        pieces++;
     } while (walk_next(s, &w));
-    assert_true(t == 20.0f);
-    assert_true(pieces <= 3 * 4 + 3);
+    assert_true(t == t1);
 }
 
+static struct flat *cells_along(int x, int y, int z, double voxel,
+                                brume_scene **s)
+{
+    struct brume_globals globals = plain_before(1.0);
+    *s = truth_scene(&globals, 1.0, 1e-9);
+    struct grid *g = grid_of(x, y, z, 1.0f, voxel);
+    float *v = grid_brick(g, 0, 0, z - 1, truth_error());
+    for (int k = 0; k < 512; k++)
+        v[k] = 2.0f;
+    struct brume_medium m = dense_as(*s, g, 0.1, 0.0);
+    truth_fill(*s, truth_box(8.0, -8.0, 8.0 + z), &m);
+    struct prepare job = {.scene = *s, .threads = 1};
+    struct flat *f = prepare_scene(&job, truth_error());
+    assert_non_null(f);
+    return f;
+}
+
+/* On an edge of cells, or where rounding makes one of it, walks begin that go
+ * on along the diagonal and aslant: a cell that rounding chose too low is left
+ * at once, in both directions in turn. */
 static void extremes__walks_never_turn_back(void **state)
 {
     (void)state;
-    struct brume_globals globals = plain_before(1.0);
-    brume_scene *s = truth_scene(&globals, 1.0, 1e-9);
-    struct grid *g = grid_of(4, 4, 4, 1.0f, 0.125);
-    struct brume_medium m = dense_as(s, g, 0.1, 0.0);
-    truth_fill(s, truth_box(8.0, -8.0, 8.0), &m);
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
+    brume_scene *s;
+    struct flat *f = cells_along(4, 4, 4, 0.125, &s);
+    const affine *to_cell = &f->view.media[0].to_cell;
     rng r = rng_make(5, 0, 0, 0);
-    float unit = f->view.unit;
     for (int i = 0; i < 20000; i++) {
-        float off = 8.0f * (rng_float(&r) - 0.5f), bend = rng_float(&r);
-        vec3 o = vec3_scale(vec3_make(off, off, 1.7f), unit);
-        vec3 d = vec3_normalize(vec3_make(1.0f, 1.0f, i & 1 ? bend : 0.0f));
-        float edge = (float)(i % 5) * unit;
-        float t = (edge - o.x) / d.x;
-        if (!(t > 0.0f))
-            continue;
-        for (int k = -2; k <= 2; k++)
-            check_pieces(&f->view, o, d, t * (1.0f + (float)k * 6e-8f));
+        float off = 32.0f * (rng_float(&r) - 0.5f), bend = rng_float(&r);
+        float sign = i & 2 ? -1.0f : 1.0f;
+        vec3 o = vec3_scale(vec3_make(off, off, 1.7f), f->view.unit);
+        vec3 d = vec3_normalize(vec3_make(sign, sign, i & 1 ? bend : 0.0f));
+        float t = ((float)(i % 6) - affine_point(to_cell, o).x) /
+                  affine_vector(to_cell, d).x;
+        float end = t + 20.0f;
+        for (int k = 0; k < 9 && t > 0.0f; k++) {
+            check_pieces(&f->view, o, d, t, end);
+            t = nextafterf(t, k < 4 ? 0.0f : INFINITY);
+        }
     }
     flat_free(f);
     brume_scene_free(s);
+}
+
+/* The thousandth plane is as exact as the first: it is computed from its
+ * number, not from the one before. */
+static void extremes__planes_are_not_summed(void **state)
+{
+    (void)state;
+    brume_scene *s;
+    struct flat *f = cells_along(1, 1, 4000, 0.1, &s);
+    const container_set inside = {1, 0, {0}};
+    const affine *to_cell = &f->view.media[0].to_cell;
+    vec3 o = vec3_scale(vec3_make(0.3f, 0.3f, 0.1f), f->view.unit);
+    vec3 d = vec3_normalize(vec3_make(1e-5f, 0.0f, 1.0f));
+    double from = (double)affine_point(to_cell, o).z;
+    double rate = (double)affine_vector(to_cell, d).z;
+    media_walk w;
+    walk_begin(&f->view, &w, &inside, true, o, d, 0.0f, 100.0f);
+    int planes = 0;
+    do {
+        /* A tenth is no sum of halves: neither is a step. */
+        double plane = (double)w.part[0].cell[2] + 1.0;
+        if (!w.part[0].inside)
+            continue;
+        planes++;
+        check_near("a plane", (double)w.part[0].next[2], (plane - from) / rate,
+                   3e-7);
+    } while (walk_next(&f->view, &w));
+    assert_true(planes >= 4000);
+    flat_free(f);
+    brume_scene_free(s);
+}
+
+/* Of one axis, the next plane of voxels lies ahead of any place, also of one on
+ * a plane, and no farther than a voxel. */
+static void extremes__planes_lie_ahead(void **state)
+{
+    (void)state;
+    rng r = rng_make(9, 0, 0, 0);
+    for (int i = 0; i < 200000; i++) {
+        float o = 64.0f * (rng_float(&r) - 0.5f), d = rng_float(&r) + 1e-3f;
+        d = i & 1 ? -d : d;
+        float inverse = 1.0f / d;
+        float t = (floorf(o + 40.0f * d) - o) * inverse;
+        t = i & 2 ? nextafterf(t, INFINITY) : t;
+        if (!(t > 0.0f))
+            continue;
+        float next = line_plane(o, d, inverse, t);
+        assert_true(next > t);
+        assert_true((next - t) * fabsf(d) < 1.001f);
+    }
+    /* Where floats are eight voxels apart, none lies ahead: to the end. */
+    line_job job = {.lattices = 1};
+    line_lattice *l = &job.lattice[0];
+    l->o = vec3_make(1e8f, 1e8f, 1e8f);
+    l->d = l->inverse = vec3_make(1.0f, 1.0f, 1.0f);
+    l->next = vec3_make(-INFINITY, -INFINITY, -INFINITY);
+    line_advance(&job, 0.5f);
+    assert_true(line_stop(&job, 0.5f, 3.0f) == 3.0f);
 }
 
 /* More voxels than 32 bits count, nearly all in tiles. */
@@ -614,6 +696,8 @@ int main(void)
         cmocka_unit_test(extremes__faulty_voxels),
         cmocka_unit_test(extremes__rays_on_planes),
         cmocka_unit_test(extremes__walks_never_turn_back),
+        cmocka_unit_test(extremes__planes_are_not_summed),
+        cmocka_unit_test(extremes__planes_lie_ahead),
         cmocka_unit_test(extremes__huge_grid),
         cmocka_unit_test(extremes__scales),
         cmocka_unit_test(extremes__nested_media),
