@@ -2,6 +2,7 @@
 #ifndef CORE_BACKEND_H
 #define CORE_BACKEND_H
 #include "core/film.h"
+#include "core/photons.h"
 #include "core/plan.h"
 
 /* What a backend works on for one frame. */
@@ -22,6 +23,13 @@ struct backend {
     bool (*available)(char *why, size_t size);
     /* Brings the scene to where it will be read; NULL with err set. */
     void *(*open)(const struct backend_frame *frame, struct brume_error *err);
+    /* Traces all photons of the job and adds their flights to the sums of the
+     * cells of the field; NULL where it cannot. */
+    bool (*trace)(void *state, const photon_job *job, int64_t *sum,
+                  struct brume_stats *stats, struct brume_error *err);
+    /* Adds what comes straight from lights to the cells of the field; false
+     * if it was stopped. */
+    bool (*single)(void *state, float *cells);
     /* Adds samples [film->samples, film->samples + count) to every pixel. On
      * failure or stop the film is not to be used any more. */
     bool (*sample)(void *state, uint32_t count, struct brume_stats *stats,

@@ -30,6 +30,7 @@
 typedef struct brume_scene brume_scene;
 
 #include "core/particles.h"
+#include "core/volume_photons.h"
 
 #define BRUME_IDENTITY {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}
 
@@ -387,10 +388,6 @@ BRUME_API bool brume_set_atmosphere(brume_scene *scene, int interior,
 
 /* ---- plan and render --------------------------------------------------- */
 
-enum brume_integrator { BRUME_INTEGRATOR_PATH };
-enum brume_backend { BRUME_BACKEND_AUTO, BRUME_BACKEND_CPU,
-                     BRUME_BACKEND_CUDA };
-
 struct brume_progress {
     const char *stage;
     double fraction;            /* of the stage, 0 to 1                    */
@@ -429,10 +426,12 @@ struct brume_options {
     enum brume_tree tree;
     int tree_stack;             /* entries of the kd-tree's, 1 to 32; 0: 4 */
     struct brume_still *still;  /* of BRUME_TREE_BOTH, or NULL             */
+    struct brume_photon_options photons;
 };
 #define BRUME_OPTIONS_INIT                                                    \
     {640, 480, 0, 0, 0, 0, BRUME_INTEGRATOR_PATH, BRUME_BACKEND_AUTO, 0, 0,   \
-     0, 0, 0, 0, 0, NULL, NULL, NULL, false, BRUME_TREE_BVH, 0, NULL}
+     0, 0, 0, 0, 0, NULL, NULL, NULL, false, BRUME_TREE_BVH, 0, NULL,         \
+     BRUME_PHOTONS_INIT}
 /* The error aimed at when neither spp, error nor seconds is given, and the
  * most samples that an error is chased with. */
 #define BRUME_DEFAULT_ERROR 0.05
@@ -469,6 +468,7 @@ struct brume_stats {
     double error;                   /* estimated relRMSE (DESIGN.md)       */
     double seconds_prepare, seconds_render;
     uint64_t bytes;
+    struct brume_photon_stats photons;
 };
 
 /* Row 0 is the top; pixels outside the rendered part are 0. */

@@ -2,10 +2,13 @@
  * as good as asked, resolve. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "core/backend.h"
 #include "core/physics/kdtree.h"
 #include "core/prepare.h"
+#include "core/radiance.h"
+#include "lib/memory.h"
 #include "lib/timer.h"
 
 /* Samples of the first pass: enough for a first estimate of the error. */
@@ -22,6 +25,7 @@ struct frame_job {
     double error;           /* aimed at, 0: none                       */
     uint32_t most;          /* samples                                 */
     uint32_t pass;          /* samples of the current pass             */
+    uint64_t photons;       /* of the trace that runs; 0: paths do     */
     bool stopped;
 };
 
@@ -71,23 +75,31 @@ static double fraction(const struct frame_job *j, double samples)
     return fmin(part, 1.0);
 }
 
+static bool tell(struct frame_job *j, struct brume_progress *p, double items)
+{
+    double now = timer_seconds();
+    p->seconds = now - j->start;
+    if (now > j->sampling)
+        p->rate = items / (now - j->sampling);
+    if (!j->options->progress(j->options->user, p))
+        j->stopped = true;
+    return !j->stopped;
+}
+
 static bool tick(void *user, double done)
 {
     struct frame_job *j = user;
     if (!j->options->progress)
         return true;
-    double now = timer_seconds(), samples = j->film.samples + done * j->pass;
-    struct brume_progress p = {
-        .stage = "path",
-        .item = "paths",
-        .fraction = fraction(j, samples),
-        .seconds = now - j->start,
-    };
-    if (now > j->sampling)
-        p.rate = samples * (double)film_pixels(&j->film) / (now - j->sampling);
-    if (!j->options->progress(j->options->user, &p))
-        j->stopped = true;
-    return !j->stopped;
+    if (j->photons > 0) {
+        struct brume_progress p = {
+            .stage = "trace", .item = "photons", .fraction = done};
+        return tell(j, &p, done * (double)j->photons);
+    }
+    double samples = j->film.samples + done * j->pass;
+    struct brume_progress p = {.stage = "path", .item = "paths"};
+    p.fraction = fraction(j, samples);
+    return tell(j, &p, samples * (double)film_pixels(&j->film));
 }
 
 /* Samples that the error still asks for; 0: enough. `met` counts successive
@@ -195,7 +207,7 @@ static void report_goal(const struct frame_job *j)
 static bool check_memory(const struct frame_job *j, const struct flat *flat,
                          struct brume_error *err)
 {
-    uint64_t bytes = flat_bytes(flat) +
+    uint64_t bytes = flat_bytes(flat) + radiance_sum_bytes(flat) +
                      film_pixels(&j->film) * sizeof(film_pixel);
     j->out->stats.bytes = bytes;
     if (j->options->memory == 0 || bytes <= j->options->memory)
@@ -206,14 +218,47 @@ static bool check_memory(const struct frame_job *j, const struct flat *flat,
                       (double)j->options->memory / 1048576.0);
 }
 
-static bool render_flat(struct frame_job *j, const struct flat *flat,
+/* Emits, traces and gathers: fills the field of scattered light. */
+static bool run_photons(struct frame_job *j, const struct backend *b,
+                        void *state, struct flat *flat, struct brume_error *err)
+{
+    struct brume_photon_stats *stats = &j->out->stats.photons;
+    struct photons photons;
+    if (!b->trace)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "backend %s has no integrator photon yet", b->name);
+    if (!photons_plan(flat, j->options, &photons, err))
+        return false;
+    int64_t *sum = memory_new(flat->radiance_count, sizeof *sum, err);
+    bool good = sum != NULL;
+    double start = j->sampling = timer_seconds();
+    j->photons = photons.job.count;
+    if (good && photons.job.sources > 0)
+        good = b->trace(state, &photons.job, sum, &j->out->stats, err);
+    if (good && j->stopped)
+        good = brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
+    if (good)
+        radiance_resolve(flat, sum,
+                         photons.job.power / (double)photons.job.count);
+    if (good && flat->view.field.single)
+        good = b->single(state, flat->radiance);
+    stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
+    stats->bytes = flat->radiance_count * (sizeof *sum + sizeof(float));
+    stats->seconds = timer_seconds() - start;
+    j->photons = 0;
+    free(sum);
+    photons_release(&photons);
+    return good;
+}
+
+static bool render_flat(struct frame_job *j, struct flat *flat,
                         struct brume_error *err)
 {
     const struct backend *b = choose_backend(j->options, err);
     if (!b || !film_init(&j->film, j->options, err) ||
         !check_memory(j, flat, err))
         return false;
-    struct stages stages = plan_stages(flat);
+    struct stages stages = plan_stages(flat, j->options);
     struct backend_frame frame = {flat, j->options, &stages, &j->film, tick, j};
     snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
              b->name);
@@ -221,7 +266,8 @@ static bool render_flat(struct frame_job *j, const struct flat *flat,
     if (!state)
         return false;
     j->out->stats.seconds_prepare = timer_seconds() - j->start;
-    bool good = sample_passes(j, b, state, err);
+    bool good = !stages.photons || run_photons(j, b, state, flat, err);
+    good = good && sample_passes(j, b, state, err);
     b->close(state);
     return good &&
            film_resolve(&j->film, j->options->omit_background, j->out, err);
@@ -257,7 +303,8 @@ bool brume_render(brume_scene *scene, const struct brume_options *options,
         .options = options, .out = frame, .start = timer_seconds()};
     set_goal(&job);
     struct flat *flat = prepare(scene, options, err);
-    bool good = flat && render_flat(&job, flat, err);
+    bool good = flat && plan_layout(flat, options, err) &&
+                render_flat(&job, flat, err);
     if (good)
         report_goal(&job);
     film_release(&job.film);
@@ -269,8 +316,9 @@ bool brume_plan_frame(brume_scene *scene, const struct brume_options *options,
                       struct brume_plan *plan, struct brume_error *err)
 {
     struct flat *flat = prepare(scene, options, err);
-    if (flat)
+    bool good = flat && plan_layout(flat, options, err);
+    if (good)
         plan_describe(scene, flat, options, plan);
     flat_free(flat);
-    return flat != NULL;
+    return good;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "core/physics/pixel.h"
+#include "core/radiance.h"
 
 static bool has_surfaces(const struct flat *f)
 {
@@ -31,14 +32,37 @@ static bool is_lit(const struct flat *f)
             (f->sky_count > 0 || !rgb_is_black(v->background)));
 }
 
-struct stages plan_stages(const struct flat *f)
+/* Whether light can reach a medium that has been scattered before, or that
+ * no light gives. */
+static bool needs_field(const struct flat *f)
+{
+    const scene_reach *r = &f->view.reach;
+    return f->view.scatters && f->view.media_multiple && r->lo[0] <= r->hi[0];
+}
+
+bool plan_layout(struct flat *flat, const struct brume_options *options,
+                 struct brume_error *err)
+{
+    return !plan_stages(flat, options).photons ||
+           radiance_layout(flat, options, err);
+}
+
+struct stages plan_stages(const struct flat *f,
+                          const struct brume_options *options)
 {
     struct stages s;
     s.load = f->grids_count > 0;
     s.accel = f->bvh_count > 0 || f->kd_count > 0;
     s.glow = f->glows_count > 0;
     s.march = true;
-    s.path = has_surfaces(f) || (f->view.scatters && is_lit(f));
+    bool lit = f->view.scatters && is_lit(f);
+    s.photons = options->integrator == BRUME_INTEGRATOR_PHOTON &&
+                needs_field(f) && (lit || has_surfaces(f));
+    /* What the field holds no path looks for. */
+    s.cells = s.photons && f->lights_count > 0 &&
+              options->photons.single == BRUME_SINGLE_FIELD;
+    s.single = f->view.scatters && f->lights_count > 0 && !s.cells;
+    s.path = has_surfaces(f) || (lit && !s.photons);
     return s;
 }
 
@@ -64,12 +88,39 @@ static void add_note(struct brume_plan *plan, const char *format, ...)
     plan->notes++;
 }
 
+static const char *photon_reason(const struct flat *f,
+                                 const struct brume_options *options,
+                                 const struct stages *s)
+{
+    if (options->integrator != BRUME_INTEGRATOR_PHOTON)
+        return "the integrator is path";
+    if (s->photons)
+        return "media scatter, many times";
+    if (!f->view.scatters)
+        return "no medium scatters";
+    if (!f->view.media_multiple)
+        return "the transport scatters once";
+    return is_lit(f) || has_surfaces(f) ? "no medium that scatters has a place"
+                                        : "nothing lights the media";
+}
+
+static const char *single_reason(const struct flat *f, const struct stages *s)
+{
+    if (s->cells)
+        return "the cells of the field hold it";
+    if (s->single)
+        return "lights reach media: sampled along the eye's rays";
+    return f->view.scatters ? "there is no light" : "no medium scatters";
+}
+
 static const char *path_reason(const struct flat *f, const struct stages *s)
 {
+    if (!s->path && s->photons)
+        return "no surface, and the field holds the rest";
     if (!s->path)
         return f->view.scatters ? "nothing lights the scattering media"
                                 : "no surface, and no medium scatters";
-    if (!f->view.scatters)
+    if (!f->view.scatters || s->photons)
         return "surfaces are lit";
     return f->view.media_multiple ? "media scatter, many times"
                                   : "media scatter, once";
@@ -101,6 +152,18 @@ static uint64_t grid_bytes(const struct flat *f)
     return f->voxels_count * sizeof *f->voxels +
            f->slots_count * sizeof *f->slots +
            f->cells_count * sizeof *f->cells;
+}
+
+static void note_field(const struct flat *f, struct brume_plan *plan)
+{
+    const radiance_lattice *l = &f->view.field;
+    if (l->numbers == 0)
+        return;
+    add_note(plan,
+             "field of scattered light: %zu of %d x %d x %d bricks of 8^3 "
+             "cells, %g on a side, %d numbers in each",
+             f->radiance_count / 512 / (size_t)l->numbers, l->bricks[0],
+             l->bricks[1], l->bricks[2], (double)l->side / f->unit, l->numbers);
 }
 
 static void note_grids(const brume_scene *scene, const struct flat *f,
@@ -179,7 +242,7 @@ static void note_fires(const brume_scene *scene, const struct flat *flat,
 void plan_describe(const brume_scene *scene, const struct flat *f,
                    const struct brume_options *options, struct brume_plan *plan)
 {
-    struct stages s = plan_stages(f);
+    struct stages s = plan_stages(f, options);
     uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
     memset(plan, 0, sizeof *plan);
     add_stage(plan, "load", s.load, grid_bytes(f),
@@ -191,9 +254,18 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               accel_reason(f));
     add_stage(plan, "glow", s.glow, f->glow_voxels_count * sizeof(float),
               glow_reason(f, &s));
+    const char *reason = photon_reason(f, options, &s);
+    add_stage(plan, "emit", s.photons, 0, reason);
+    add_stage(plan, "trace", s.photons, radiance_sum_bytes(f), reason);
+    add_stage(plan, "gather", s.photons,
+              f->radiance_count * sizeof *f->radiance +
+                  f->radiance_slots_count * sizeof *f->radiance_slots,
+              reason);
     add_stage(plan, "march", s.march, pixels * sizeof(film_pixel),
               "opacity, depth, background and emission toward the eye");
+    add_stage(plan, "single", s.single, 0, single_reason(f, &s));
     add_stage(plan, "path", s.path, 0, path_reason(f, &s));
+    note_field(f, plan);
     note_grids(scene, f, plan);
     note_fires(scene, f, plan);
 }

@@ -8,10 +8,18 @@ struct stages {
     bool accel;             /* the tree                                    */
     bool glow;              /* emitting voxels as lights                   */
     bool march;             /* the straight line from the eye              */
-    bool path;              /* anything beyond it                          */
+    bool photons;           /* emit, trace and gather: a field of light    */
+    bool cells;             /* ... that holds what comes from lights too   */
+    bool single;            /* what the lights give media, once scattered  */
+    bool path;              /* anything beyond that                        */
 };
 
-struct stages plan_stages(const struct flat *flat);
+struct stages plan_stages(const struct flat *flat,
+                          const struct brume_options *options);
+
+/* Lays out what the stages need beyond the prepared scene. */
+bool plan_layout(struct flat *flat, const struct brume_options *options,
+                 struct brume_error *err);
 
 /* The stages with their reasons and bytes, and notes on grids and media. */
 void plan_describe(const brume_scene *scene, const struct flat *flat,

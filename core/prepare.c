@@ -160,6 +160,7 @@ static bool prepare_all(const struct prepare *job, const struct assembly *a,
         !prepare_shapes(job, a, err) || !prepare_grids(job, a, err) ||
         !prepare_media(job, err) || !prepare_glow(job, err))
         return false;
+    prepare_reach(job, a);
     flat_view(f);
     if (!add_eye(f, err))
         return false;

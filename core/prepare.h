@@ -41,6 +41,9 @@ bool prepare_media(const struct prepare *job, struct brume_error *err);
 /* prepare_glow.c: the emitting voxels as lights, where light is followed. */
 bool prepare_glow(const struct prepare *job, struct brume_error *err);
 
+/* prepare_reach.c: what photons are sent to, and where media scatter. */
+void prepare_reach(const struct prepare *job, const struct assembly *a);
+
 /* The largest value of a field over a box of unit space (or of the lattice
  * that `to_unit` maps from). */
 float prepare_field_bound(const struct flat *flat, int field,

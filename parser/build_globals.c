@@ -84,11 +84,11 @@ static void set_globals(struct parser *parser, struct frame *frame,
     const struct globals *globals = frame->node;
 
     if (row->given == GLOBAL_INTEGRATOR) {
-        if (globals->integrator != 0)
+        if (globals->integrator > BRUME_INTEGRATOR_PHOTON)
             parser_error(parser, at, "integrator '%s' is not supported yet",
                          integrator_words[globals->integrator]);
         parser->out->has_integrator = true;
-        parser->out->integrator = BRUME_INTEGRATOR_PATH;
+        parser->out->integrator = (enum brume_integrator)globals->integrator;
     }
     if (row->given == GLOBAL_CHARSET && globals->charset == CHARSET_SYS)
         parser_warn(parser, at, "charset sys is taken as utf8");
@@ -251,6 +251,7 @@ static bool transported(const struct globals *globals, unsigned bit, int said,
 static bool is_full(const struct parser *parser)
 {
     return parser->builder->globals.light_units == 1 ||
+           parser->builder->globals.has_volume_photons ||
            parser->in->full_transport;
 }
 
@@ -292,6 +293,7 @@ static bool finish_globals(struct parser *parser, struct brume_error *err)
     to.environment = transported(globals, TRANSPORT_ENVIRONMENT,
                                  said->environment, full);
     to.physical_units = globals->light_units == 1;
+    build_photons_finish(parser);
     parser->out->accuracy = globals->accuracy;
     parser->out->time_limit = globals->time_limit;
     return brume_set_globals(parser->out->scene, &to, err);

@@ -59,6 +59,7 @@
     X(SKY_SPHERE, sky_sphere) X(SPLINE, spline)                               \
     X(GLOBAL_SETTINGS, global_settings) X(TRANSPORT, transport)               \
     X(PHOTONS, photons) X(RADIOSITY, radiosity)                               \
+    X(VOLUME_PHOTONS, volume_photons)                                         \
     X(GLOBAL_SUBSURFACE, global_subsurface) X(DEFAULT, default)
 
 enum build_kind {
@@ -211,7 +212,15 @@ struct subsurface {
     bool radiosity;
 };
 
+struct volume_photons {
+    double count, radius, field_spacing;
+    int preset, gather, single, emission;
+    bool frustum;
+};
+
 struct globals {
+    struct volume_photons volume_photons;
+    bool has_volume_photons;
     struct photons photons;
     struct radiosity radiosity;
     struct subsurface subsurface;
@@ -439,6 +448,8 @@ void build_mesh_set(struct parser *parser, struct frame *frame,
 bool build_mesh_normal(struct mesh *mesh, const double n[3],
                        struct brume_error *err);
 void build_globals_start(struct globals *globals);
+/* build_photons.c: what volume_photons says, to the result. */
+void build_photons_finish(struct parser *parser);
 bool build_place_atmosphere(struct parser *parser);
 
 #endif

@@ -14,6 +14,8 @@ static const char *integrator_name(enum brume_integrator integrator)
     switch (integrator) {
     case BRUME_INTEGRATOR_PATH:
         return "path";
+    case BRUME_INTEGRATOR_PHOTON:
+        return "photon";
     }
     return "";
 }

@@ -18,7 +18,7 @@ static const struct option_word backend_words[] = {
 
 static const struct option_word integrator_words[] = {
     {"path", BRUME_INTEGRATOR_PATH, false},
-    {"photon", 0, true},
+    {"photon", BRUME_INTEGRATOR_PHOTON, false},
     {"progressive", 0, true},
     {NULL, 0, false},
 };
@@ -27,6 +27,11 @@ static const struct option_word tree_words[] = {
     {"bvh", BRUME_TREE_BVH, false},
     {"kd", BRUME_TREE_KD, false},
     {"both", BRUME_TREE_BOTH, false},
+    {NULL, 0, false},
+};
+
+static const struct option_word preset_words[] = {
+    {"paper", 1, false},
     {NULL, 0, false},
 };
 
@@ -204,7 +209,12 @@ const struct option option_table[] = {
     { .name = "backend", .value = "name", .set = set_word, .at = AT(backend),
       .words = backend_words, .help = "auto, cpu or cuda" },
     { .name = "integrator", .value = "name", .set = set_integrator,
-      .at = AT(integrator), .words = integrator_words, .help = "path" },
+      .at = AT(integrator), .words = integrator_words,
+      .help = "path or photon" },
+    { .name = "photons", .value = "n", .set = set_unsigned, .at = AT(photons),
+      .help = "emitted for a frame by --integrator photon" },
+    { .name = "preset", .value = "name", .set = set_word, .at = AT(preset),
+      .words = preset_words, .help = "paper: the published choices" },
     { .name = "transport", .value = "name", .set = set_transport,
       .at = AT(full_transport), .words = transport_words,
       .help = "pov, or full: all light, many bounces" },
@@ -353,10 +363,6 @@ const struct option option_table[] = {
             "render part of the work"),
     MISSING(NULL, NULL, "preview", NULL, set_missing,
             "show the picture as it comes"),
-    MISSING(NULL, NULL, "photons", "n", set_missing,
-            "photons emitted for each frame"),
-    MISSING(NULL, NULL, "preset", "name", set_missing,
-            "paper: the published choices"),
 };
 /* clang-format on */
 

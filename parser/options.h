@@ -79,11 +79,12 @@ struct options {
     enum brume_integrator integrator;
     enum brume_tree tree;
     int tree_stack;
+    int preset;                     /* 1: paper                            */
     bool full_transport;
     int spp;
     double error, seconds;
     int threads;
-    uint64_t seed, memory;
+    uint64_t seed, memory, photons;
     /* Of reading a scene; 0: the default of struct parse_limits. */
     int include_depth, macro_depth;
     uint64_t iterations, tokens;

@@ -94,6 +94,7 @@ struct parse_result {
     double assumed_gamma;       /* 0: not given                            */
     bool has_integrator;
     enum brume_integrator integrator;
+    struct brume_photon_options photons;
     double accuracy;            /* 0: not given; estimated relative error  */
     double time_limit;          /* seconds, 0: not given                   */
 };

@@ -198,6 +198,14 @@ static struct brume_options render_options(struct reel *reel, int number,
     r.seed = o->seed;
     r.frame = (uint32_t)number;
     r.memory = o->memory;
+    r.photons = scene->photons;
+    if (o->photons > 0)
+        r.photons.count = o->photons;
+    if (o->preset) {
+        r.photons.gather = BRUME_GATHER_BALL;
+        r.photons.single = BRUME_SINGLE_FIELD;
+        r.photons.emission = BRUME_EMISSION_PHOTONS;
+    }
     r.progress = on_progress;
     r.warn = warn;
     r.user = reel;

@@ -49,13 +49,42 @@ static bool put_counts(struct json *json, const struct brume_stats *s)
            json_put_count(json, "bytes", s->bytes);
 }
 
+/* Powers are parts of what was emitted. */
+static bool put_photons(struct json *json, const struct brume_photon_stats *p)
+{
+    double of = p->emitted > 0.0 ? p->emitted : 1.0;
+    double rest = p->emitted + p->units - p->media - p->surfaces - p->walls -
+                  p->escaped - p->roulette - p->dropped;
+    struct json *out = json_new_object(), *books = json_new_object();
+    bool ok = json_put_count(out, "traced", p->traced) &&
+              json_put_count(out, "events", p->events) &&
+              json_put_count(out, "bounces", p->bounces) &&
+              json_put_count(out, "stored", p->stored) &&
+              json_put_count(out, "clipped", p->clipped) &&
+              json_put_count(out, "cells", p->cells) &&
+              json_put_count(out, "bytes", p->bytes) &&
+              json_put_number(out, "seconds", p->seconds) &&
+              json_put_number(books, "units", p->units / of) &&
+              json_put_number(books, "media", p->media / of) &&
+              json_put_number(books, "surfaces", p->surfaces / of) &&
+              json_put_number(books, "walls", p->walls / of) &&
+              json_put_number(books, "escaped", p->escaped / of) &&
+              json_put_number(books, "roulette", p->roulette / of) &&
+              json_put_number(books, "dropped", p->dropped / of) &&
+              json_put_number(books, "rest", rest / of);
+    ok = json_put(out, "books", books) && ok;
+    return json_put(json, "photons", out) && ok;
+}
+
 static struct json *frame_json(const struct reel_record *r)
 {
     struct json *json = json_new_object();
     bool ok = json_put_count(json, "frame", (uint64_t)r->number) &&
               json_put_number(json, "clock", r->clock) &&
               (!r->picture || json_put_text(json, "picture", r->picture)) &&
-              put_counts(json, &r->stats) && put_seconds(json, r);
+              put_counts(json, &r->stats) && put_seconds(json, r) &&
+              (r->stats.photons.traced == 0 ||
+               put_photons(json, &r->stats.photons));
     if (ok)
         return json;
     json_free(json);

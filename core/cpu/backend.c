@@ -1,22 +1,11 @@
 /* The CPU backend: rows of pixels over threads. A pixel is summed by one
  * thread in the order of its samples, so that the picture does not depend on
  * how many there are. */
-#include "core/backend.h"
-#include <stdatomic.h>
+#include "core/cpu/cpu.h"
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
 #include "lib/thread.h"
-
-struct cpu_state {
-    struct backend_frame frame;
-    pixel_job job;
-    int threads;
-    pixel_counters *count; /* of each thread                          */
-    uint32_t samples;      /* of this call                            */
-    atomic_size_t rows_done;
-    atomic_bool stop;
-};
 
 static bool cpu_available(char *why, size_t size)
 {
@@ -46,7 +35,7 @@ static void *cpu_open(const struct backend_frame *frame,
     s->job.height = o->height;
     s->job.seed = o->seed;
     s->job.frame = o->frame;
-    s->job.path = frame->stages->path;
+    s->job.path = frame->stages->path || frame->stages->single;
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
     if (!s->count) {
         cpu_close(s);
@@ -71,18 +60,22 @@ static void sample_row(void *context, size_t index, int thread)
         atomic_store(&s->stop, true);
 }
 
+void cpu_add_track(const track_counters *c, struct brume_stats *out)
+{
+    out->paths += c->paths;
+    out->rays += c->rays;
+    out->shadow_rays += c->shadow_rays;
+    out->collisions += c->collisions;
+    out->lookups += c->lookups;
+    out->majorant_exceeded += c->majorant_exceeded;
+    out->overflow += c->overflow;
+}
+
 static void add_counts(const struct cpu_state *s, struct brume_stats *out)
 {
     for (int i = 0; i < s->threads; i++) {
-        const pixel_counters *c = &s->count[i];
-        out->paths += c->track.paths;
-        out->rays += c->track.rays;
-        out->shadow_rays += c->track.shadow_rays;
-        out->collisions += c->track.collisions;
-        out->lookups += c->track.lookups;
-        out->majorant_exceeded += c->track.majorant_exceeded;
-        out->overflow += c->track.overflow;
-        out->rejected += c->rejected;
+        cpu_add_track(&s->count[i].track, out);
+        out->rejected += s->count[i].rejected;
     }
 }
 
@@ -103,5 +96,6 @@ static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,
 }
 
 const struct backend backend_cpu = {
-    "cpu", cpu_available, cpu_open, cpu_sample, cpu_close,
+    "cpu",      cpu_available, cpu_open,  cpu_trace,
+    cpu_single, cpu_sample,    cpu_close,
 };

@@ -138,7 +138,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->job.height = frame->options->height;
     s->job.seed = frame->options->seed;
     s->job.frame = frame->options->frame;
-    s->job.path = frame->stages->path;
+    s->job.path = frame->stages->path || frame->stages->single;
     if (device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         start_film(s, err))
         return s;
@@ -206,5 +206,6 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
 }
 
 extern "C" const struct backend backend_cuda = {
-    "cuda", cuda_available, cuda_open, cuda_sample, cuda_close,
+    "cuda",  cuda_available, cuda_open,  nullptr,
+    nullptr, cuda_sample,    cuda_close,
 };

@@ -100,9 +100,8 @@ HD float light_factor(const flat_scene *s, const flat_light *l, vec3 from,
 }
 
 /* A lamp of an area light, uniform over it, for the lit point p. */
-HD vec3 light_lamp(const flat_light *l, vec3 p, rng *r)
+HD vec3 light_lamp_at(const flat_light *l, vec3 p, float u, float v)
 {
-    float u = rng_float(r), v = rng_float(r);
     vec3 at = vec3_make(u - 0.5f, v - 0.5f, 0.0f);
     if (l->area != LIGHT_RECTANGLE)
         at = vec3_scale(warp_disc(u, v), 0.5f);
@@ -114,6 +113,12 @@ HD vec3 light_lamp(const flat_light *l, vec3 p, rng *r)
         y = vec3_scale(b.y, size);
     }
     return vec3_mad(vec3_mad(l->position, at.x, x), at.y, y);
+}
+
+HD vec3 light_lamp(const flat_light *l, vec3 p, rng *r)
+{
+    float u = rng_float(r);
+    return light_lamp_at(l, p, u, rng_float(r));
 }
 
 HD int light_find(const flat_scene *s, float u, float *probability)

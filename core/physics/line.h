@@ -9,8 +9,10 @@
 #define CORE_PHYSICS_LINE_H
 #include "core/physics/fmath.h"
 #include "core/physics/glow.h"
+#include "core/physics/radiance.h"
 #include "core/physics/walk.h"
 
+/* The last is the field's. */
 enum { LINE_LATTICES = 12 };
 
 typedef struct {
@@ -29,6 +31,7 @@ typedef struct {
     vec3 o, d;
     float p_dir;            /* see glow_ray_share                          */
     bool emission;          /* the radiance is wanted                      */
+    bool scattered;         /* ... and what the field's light gives        */
     int lattices;
     line_lattice lattice[LINE_LATTICES];
 } line_job;
@@ -37,18 +40,34 @@ typedef struct {
     rgb sigma_t, source;
 } line_point;
 
+HD void line_add_lattice(line_job *job, vec3 o, vec3 d)
+{
+    line_lattice *l = &job->lattice[job->lattices++];
+    l->o = o;
+    l->d = d;
+    l->inverse = vec3_make(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
+    l->next = vec3_make(-INFINITY, -INFINITY, -INFINITY);
+}
+
 HD void line_add_lattices(line_job *job, const flat_medium *m)
 {
-    for (int i = 0; i < m->planes && job->lattices < LINE_LATTICES; i++) {
+    for (int i = 0; i < m->planes && job->lattices < LINE_LATTICES - 1; i++) {
         const flat_field *f = &job->s->fields[m->plane_field[i]];
-        line_lattice *l = &job->lattice[job->lattices++];
         float shift = job->s->grids[f->grid].nearest ? 0.5f : 0.0f;
-        l->o = vec3_add(affine_point(&f->to_index, job->o),
-                        vec3_make(shift, shift, shift));
-        l->d = affine_vector(&f->to_index, job->d);
-        l->inverse = vec3_make(1.0f / l->d.x, 1.0f / l->d.y, 1.0f / l->d.z);
-        l->next = vec3_make(-INFINITY, -INFINITY, -INFINITY);
+        line_add_lattice(job, vec3_add(affine_point(&f->to_index, job->o),
+                                       vec3_make(shift, shift, shift)),
+                         affine_vector(&f->to_index, job->d));
     }
+}
+
+/* The light of the field is read once a cell, at least. */
+HD void line_add_field(line_job *job)
+{
+    const radiance_lattice *f = &job->s->field;
+    vec3 o = vec3_sub(job->o, vec3_make(f->origin[0], f->origin[1],
+                                        f->origin[2]));
+    line_add_lattice(job, vec3_scale(o, 1.0f / f->side),
+                     vec3_scale(job->d, 1.0f / f->side));
 }
 
 /* Distance of the first plane of one axis beyond t; none beyond 2^30 voxels
@@ -89,11 +108,24 @@ HD float line_stop(const line_job *job, float t, float t_end)
     return stop > t ? stop : t_end;
 }
 
+/* Radiance per length that the media scatter of the field's light. */
+HD rgb line_scattered(const line_job *job, const flat_medium *m,
+                      const radiance_point *light, float density)
+{
+    rgb in = radiance_seen(job->s, light, m->phase, m->g,
+                           vec3_scale(job->d, -1.0f));
+    return rgb_mul(in, rgb_scale(m->sigma_s, density));
+}
+
 HD line_point line_at(const line_job *job, const media_walk *w, float t)
 {
     line_point out;
+    radiance_point light;
+    bool read = false;
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
+    if (job->scattered && job->s->field.ball)
+        out.source = radiance_at(job->s, p, true).eye;
     for (int i = 0; i < w->count; i++) {
         const flat_medium *m = &job->s->media[w->part[i].medium];
         const majorant_cell *bound = &w->part[i].bound;
@@ -102,6 +134,14 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         field_point x = lattice_point(job->s, &w->part[i], p, t);
         float density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_scale(m->sigma_t, density));
+        if (job->scattered && !job->s->field.ball && density > 0.0f &&
+            !rgb_is_black(m->sigma_s)) {
+            if (!read)
+                light = radiance_at(job->s, p, true);
+            read = true;
+            out.source = rgb_add(out.source,
+                                 line_scattered(job, m, &light, density));
+        }
         if (!job->emission || bound->rate == 0.0f)
             continue;
         rgb q = medium_source(job->s, m, &x, density);
@@ -170,7 +210,7 @@ HD void line_piece(line_job *job, const media_walk *w,
  * can be continued over further segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
-                       bool emission, line_integral *out)
+                       bool emission, bool scattered, line_integral *out)
 {
     media_walk w;
     walk_begin(s, &w, set, true, o, d, t0, t1);
@@ -182,9 +222,12 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
     job.d = d;
     job.p_dir = p_dir;
     job.emission = emission;
+    job.scattered = scattered && s->field.numbers > 0;
     job.lattices = 0;
     for (int i = 0; i < w.count; i++)
         line_add_lattices(&job, &s->media[w.part[i].medium]);
+    if (job.scattered)
+        line_add_field(&job);
     do {
         if (!line_piece_empty(&w))
             line_piece(&job, &w, out);

@@ -198,6 +198,35 @@ typedef struct {
     float density;          /* of choosing it, per solid angle of the map  */
 } sky_texel;
 
+/* Light that has been scattered, in cells of a cubic lattice over the media; in
+ * bricks of 8^3, where something scatters. A cell holds what is asked of it:
+ * Int p L toward the eye, where all media have the same phase function p and
+ * it is not isotropic; the fluence Int L; the vector flux. In unit space. */
+typedef struct {
+    float origin[3];        /* unit space: the lattice's lowest corner     */
+    float side;             /* of a cell                                   */
+    int32_t bricks[3];
+    int32_t numbers;        /* of a cell: of each of these 3, and 9 of the
+                               flux, x y z of each channel; 0: no field    */
+    int32_t eye, fluence, flux;     /* place of the first, or -1           */
+    int32_t phase;          /* p                                           */
+    float g;
+    int32_t ball;           /* 1: instead, what all media scatter toward the
+                               eye, per length, by events within `radius`  */
+    float radius;
+    int32_t single;         /* 1: light straight from lights is in it      */
+    int32_t births;         /* 1: emission of media too                    */
+} radiance_lattice;
+
+/* What photons are sent to. */
+typedef struct {
+    vec3 centre;            /* of a ball that holds all bounded parts      */
+    float radius;
+    int32_t media;          /* 1: media go on beyond it                    */
+    int32_t walls;          /* 1: surfaces do                              */
+    float lo[3], hi[3];     /* where media scatter; lo > hi: nowhere       */
+} scene_reach;
+
 /* Node of the binary BVH. A leaf has count > 0 items from `first` of
  * bvh_items; an inner node's children are `first` and `first` + 1. */
 typedef struct {
@@ -252,7 +281,9 @@ typedef struct {
     X(kd_node, kd)                                                            \
     X(uint32_t, kd_items)       /* as bvh_items */                            \
     X(blackbody_table, blackbody)                                             \
-    X(int32_t, camera_containers)   /* the shapes that hold the eye */
+    X(int32_t, camera_containers)   /* the shapes that hold the eye */        \
+    X(int32_t, radiance_slots)      /* per brick: its number, or -1 */        \
+    X(float, radiance)
 
 /* Passed by value to every stage. */
 typedef struct {
@@ -260,6 +291,8 @@ typedef struct {
     SCENE_ARRAYS(X)
 #undef X
     camera view;
+    scene_reach reach;
+    radiance_lattice field;
     rgb background;
     int32_t atmosphere;     /* an interior, or -1                          */
     int32_t media_multiple, surfaces_indirect, environment, physical_units;

@@ -1,9 +1,10 @@
 /* single.h - light that media scatter once, sampled along the eye's ray.
  *
- * Where nothing is followed beyond the first event and lights do not fall off
- * with distance, no flights are drawn: the ray goes on to the next surface, and
- * each light is sought at points of the stretch that it can reach, chosen by
- * a coarse profile of how much is scattered there and comes through. */
+ * Where nothing is followed beyond the first event, or a field holds what is,
+ * and lights do not fall off with distance, no flights are drawn: the ray goes
+ * on to the next surface, and each light is sought at points of the stretch
+ * that it can reach, chosen by a coarse profile of how much is scattered there
+ * and comes through. */
 #ifndef CORE_PHYSICS_SINGLE_H
 #define CORE_PHYSICS_SINGLE_H
 #include "core/physics/path.h"
@@ -261,8 +262,9 @@ HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
 /* Whether the eye's rays need no flights. */
 HD bool single_does(const flat_scene *s)
 {
-    return s->scatters && !s->media_multiple && !s->environment &&
-           !s->local_lights;
+    bool once = s->field.numbers > 0 ? !s->field.single
+                                     : !s->media_multiple && !s->environment;
+    return s->scatters && once && !s->local_lights;
 }
 
 /* In place of path_segment. */

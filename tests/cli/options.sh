@@ -77,8 +77,7 @@ for word in +C --resume --preview +FJ +FT +UF Create_Ini=on; do
     exits 2
     says 'not supported yet'
 done
-for word in 'integrator photon' 'integrator progressive' 'photons 9' \
-    'shard 1/2' 'preset paper'; do
+for word in 'integrator progressive' 'shard 1/2'; do
     brume s.pov "--${word% *}" "${word#* }"
     exits 2
     says 'not supported yet'

@@ -572,8 +572,18 @@ static void globals(void **state)
                  s->globals.environment || s->globals.physical_units);
     assert_true(result.has_integrator && result.assumed_gamma == 1);
     NUMBERS(&result.accuracy, 0.02, 5);
-    expect_error("global_settings { integrator photon }", BRUME_ERR_SCENE, 1,
-                 30, "'photon' is not supported yet");
+    s = scene("global_settings { volume_photons { count 5e4 preset paper\n"
+              "  emission line radius 0.5 field_spacing 0.1 frustum off } }\n");
+    assert_int_equal(result.photons.count, 50000);
+    assert_int_equal(result.photons.gather, BRUME_GATHER_BALL);
+    assert_int_equal(result.photons.single, BRUME_SINGLE_FIELD);
+    assert_int_equal(result.photons.emission, BRUME_EMISSION_LINE);
+    NUMBERS(&result.photons.radius, 0.5);
+    NUMBERS(&result.photons.spacing, 0.1);
+    assert_true(result.photons.everywhere);
+    assert_true(s->globals.media_multiple && s->globals.surfaces_indirect);
+    expect_error("global_settings { integrator progressive }", BRUME_ERR_SCENE,
+                 1, 30, "'progressive' is not supported yet");
     expect_error("global_settings { max_trace_level 257 }", BRUME_ERR_SCENE, 1,
                  35, "at most 256");
     expect_warning("global_settings { assumed_gamma 2.2 }", 1, 19, "2.2");

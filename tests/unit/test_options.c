@@ -244,10 +244,8 @@ static void test_options__not_yet(void **state)
     ASSERT_ERROR("--resume: not supported yet", "--resume");
     ASSERT_ERROR("--shard: not supported yet", "--shard", "1/2");
     ASSERT_ERROR("--preview: not supported yet", "--preview");
-    ASSERT_ERROR("--photons: not supported yet", "--photons", "9");
-    ASSERT_ERROR("--preset: not supported yet", "--preset", "paper");
-    ASSERT_ERROR("--integrator: 'photon' is not supported yet", "--integrator",
-                 "photon");
+    ASSERT_ERROR("--integrator: 'progressive' is not supported yet",
+                 "--integrator", "progressive");
     ASSERT_ERROR("+F: file type 'J' is not supported yet; N is PNG, E "
                  "OpenEXR, P PPM",
                  "+FJ");

@@ -1,0 +1,26 @@
+/* cpu.h - what the stages of the CPU backend share. */
+#ifndef CORE_CPU_CPU_H
+#define CORE_CPU_CPU_H
+#include <stdatomic.h>
+#include "core/backend.h"
+
+struct cpu_state {
+    struct backend_frame frame;
+    pixel_job job;
+    int threads;
+    pixel_counters *count;      /* of each thread                          */
+    uint32_t samples;           /* of this call                            */
+    atomic_size_t rows_done;
+    atomic_bool stop;
+};
+
+/* trace.c */
+bool cpu_trace(void *state, const photon_job *job, int64_t *sum,
+               struct brume_stats *stats, struct brume_error *err);
+
+/* single.c */
+bool cpu_single(void *state, float *cells);
+
+/* backend.c */
+void cpu_add_track(const track_counters *c, struct brume_stats *out);
+#endif

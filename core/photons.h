@@ -1,0 +1,18 @@
+/* photons.h - who emits photons, and how many each. */
+#ifndef CORE_PHOTONS_H
+#define CORE_PHOTONS_H
+#include "core/flat.h"
+#include "core/physics/photon.h"
+
+/* What the trace stage works on; the sources are owned. */
+struct photons {
+    photon_job job;
+    photon_source *sources;
+};
+
+/* Lists the sources of the scene with their shares: none where nothing emits
+ * toward it. */
+bool photons_plan(const struct flat *flat, const struct brume_options *options,
+                  struct photons *out, struct brume_error *err);
+void photons_release(struct photons *photons);
+#endif

@@ -1,0 +1,77 @@
+/* lit_cell.h - light straight from the lights, at points of the field. */
+#ifndef CORE_PHYSICS_LIT_CELL_H
+#define CORE_PHYSICS_LIT_CELL_H
+#include "core/physics/inside.h"
+#include "core/physics/path.h"
+
+/* What comes through of light over `distance` from o along wi: surfaces by
+ * their transparency, media exactly. */
+HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
+                   float distance)
+{
+    bvh_ray r = bvh_ray_make(o, wi);
+    ray_hit after = hit_start(0.0f);
+    rgb left = rgb_gray(1.0f);
+    line_integral line;
+    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line.radiance = rgb_gray(0.0f);
+    for (;;) {
+        ray_hit h = bvh_nearest(s, &r, &after, distance);
+        if (h.shape >= 0)
+            left = rgb_mul(left, shadow_surface(s, &r, &h));
+        if (rgb_is_black(left))
+            return left;
+        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false, &line);
+        if (h.shape < 0)
+            return rgb_mul(left, line_transmittance(&line));
+        shadow_cross(s, &h, set);
+        after = h;
+    }
+}
+
+/* Adds a light's part to the numbers of the cell around x. In a field of balls
+ * the media there scatter it, else it is kept as light. */
+HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
+                     float *out)
+{
+    const radiance_lattice *f = &s->field;
+    light_sample l;
+    if (!s->lights[light].media_interaction ||
+        !light_reach(s, light, x, &p->random, &l))
+        return;
+    container_set set = p->inside;
+    rgb in = l.color;
+    if (s->lights[light].shadows)
+        in = rgb_mul(in, lit_cell_left(s, &set, x, l.shadow_wi,
+                                     l.shadow_distance));
+    float scatter;
+    rgb seen = rgb_mul(in, path_scattered(s, p, 0.0f, l.wi, &scatter));
+    in = rgb_scale(in, light_medium_factor(s));
+    if (!f->ball && f->eye >= 0)
+        seen = rgb_scale(in, phase_eval_between(f->phase, f->g, p->d, l.wi) *
+                                 phase_pov_scale(f->phase));
+    for (int c = 0; c < 3; c++) {
+        if (f->eye >= 0)
+            out[f->eye + c] += rgb_get(seen, c);
+        if (f->fluence >= 0)
+            out[f->fluence + c] += rgb_get(in, c);
+        for (int k = 0; f->flux >= 0 && k < 3; k++)
+            out[f->flux + 3 * c + k] -= rgb_get(in, c) * vec3_get(l.wi, k);
+    }
+}
+
+/* All lights, at the middle of a cell. */
+HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
+                    track_counters *count)
+{
+    path_state p;
+    container_set set;
+    inside_find(s, x, &set);
+    path_begin(&p, x, vec3_scale(radiance_to_eye(s, x), -1.0f), &set, true,
+               random);
+    p.count = count;
+    for (uint64_t i = 0; i < s->lights_count; i++)
+        lit_cell_light(s, (int)i, &p, x, out);
+}
+
+#endif

@@ -1,0 +1,327 @@
+/* path_track.h - what a path carries, and its flights through media between
+ * two surfaces (see path.h). */
+#ifndef CORE_PHYSICS_PATH_TRACK_H
+#define CORE_PHYSICS_PATH_TRACK_H
+#include "core/physics/glow.h"
+#include "core/physics/line.h"
+#include "core/physics/ray.h"
+#include "core/physics/rng.h"
+#include "core/physics/track.h"
+
+enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
+
+/* The media of a segment, seen coarsely: what both ways of lighting its
+ * points agree on. */
+typedef struct {
+    int32_t on;             /* lights are sought along the ray too         */
+    float first, last;      /* where there are media                       */
+    float scatter, stop;    /* mean drawn scattering, and all that ends a
+                               flight, between them                        */
+} path_stretch;
+
+/* A scattering event. */
+typedef struct {
+    float t;
+    int32_t medium;
+    float sigma_s;          /* of all media there, mean over channels      */
+} path_event;
+
+typedef struct {
+    rgb beta, r_u;
+    rgb radiance;           /* gathered so far                             */
+    int32_t driver;
+    int32_t straight;       /* still on the line from the eye              */
+    float along;            /* where on the eye's line single.h looks      */
+    float boost;            /* scattering events of this segment are drawn
+                               so many times as often, and weigh so much less */
+    path_stretch stretch;
+    float p_dir;            /* density per solid angle with which d was
+                               chosen at o; 0: not chosen                  */
+    vec3 o, d;
+    ray_hit after;          /* the ray goes on behind this                 */
+    container_set inside;
+    rng random;
+    track_counters *count;
+} path_state;
+
+HD void path_add(path_state *p, rgb value)
+{
+    p->radiance = rgb_add(p->radiance,
+                          rgb_scale(value, 1.0f / rgb_mean(p->r_u)));
+}
+
+/* ---- media between two surfaces ---------------------------------------- */
+
+/* Coefficients of all active media at a tentative collision. */
+typedef struct {
+    rgb sigma_s[MAX_ACTIVE];
+    rgb all_s, all_a, all_t;    /* sums; all_t is what attenuates          */
+} path_point;
+
+HD void path_point_at(const flat_scene *s, path_state *p,
+                      const media_walk *w, float t, rgb majorant,
+                      path_point *out)
+{
+    vec3 x = vec3_mad(p->o, t, p->d);
+    rgb source = rgb_gray(0.0f);
+    out->all_s = out->all_a = out->all_t = source;
+    for (int i = 0; i < w->count; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        const majorant_cell *bound = &w->part[i].bound;
+        out->sigma_s[i] = rgb_gray(0.0f);
+        if (bound->density == 0.0f && bound->rate == 0.0f)
+            continue;
+        field_point at = lattice_point(s, &w->part[i], x, t);
+        float density = medium_density(s, m, &at);
+        p->count->lookups++;
+        out->sigma_s[i] = rgb_scale(m->sigma_s, density);
+        out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
+        out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
+        out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
+        if (bound->rate == 0.0f || p->straight || m->uniform ||
+            s->field.births)
+            continue;
+        rgb q = medium_source(s, m, &at, density);
+        if (rgb_is_black(q))
+            continue;
+        float share = glow_ray_share(s, w->part[i].medium, x, t, p->p_dir);
+        source = rgb_add(source, rgb_scale(q, share));
+    }
+    if (!rgb_is_black(source))
+        p->radiance = rgb_add(p->radiance,
+            rgb_scale(rgb_mul(p->beta, source),
+                      1.0f / rgb_mean(rgb_mul(p->r_u, majorant))));
+}
+
+/* Emission is sampled at tentative collisions, so where it is wanted they are
+ * drawn more often than the coefficients ask. */
+HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
+{
+    rgb sum = rgb_gray(0.0f);
+    for (int i = 0; i < w->count; i++) {
+        const majorant_cell *b = &w->part[i].bound;
+        const flat_medium *m = &s->media[w->part[i].medium];
+        sum = rgb_add(sum, rgb_scale(m->bound, b->density));
+        if (emission && !m->uniform)
+            sum = rgb_add(sum, rgb_gray(b->rate));
+    }
+    return sum;
+}
+
+/* Majorant transmittance of each channel over that of the driver. */
+HD rgb path_ratio(const path_state *p, rgb majorant, float distance)
+{
+    float driver = rgb_get(majorant, p->driver);
+    rgb over = rgb_sub(majorant, rgb_gray(driver));
+    if (rgb_is_black(over))
+        return rgb_gray(1.0f);
+    return rgb_make(fm_exp(-over.r * distance), fm_exp(-over.g * distance),
+                    fm_exp(-over.b * distance));
+}
+
+HD void path_fly(path_state *p, rgb majorant, float distance)
+{
+    rgb ratio = path_ratio(p, majorant, distance);
+    p->beta = rgb_mul(p->beta, ratio);
+    p->r_u = rgb_mul(p->r_u, ratio);
+}
+
+/* Emission per length of the homogeneous media of a walk that no straight
+ * line counts. */
+HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
+                           const media_walk *w)
+{
+    rgb sum = rgb_gray(0.0f);
+    field_point anywhere = field_point_make(s, -1, p->o);
+    for (int i = 0; i < w->count && !p->straight; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        if (m->uniform && m->emits)
+            sum = rgb_add(sum, medium_source(s, m, &anywhere,
+                                             m->outside.density));
+    }
+    return sum;
+}
+
+/* A flight over `distance` gathers that emission all along, as its end is
+ * drawn with the transmittance; where that differs in the channels, at a
+ * point of it. */
+HD void path_gather(path_state *p, rgb source, rgb majorant, float distance)
+{
+    if (rgb_is_black(source))
+        return;
+    rgb ratio = path_ratio(p, majorant, distance * rng_float(&p->random));
+    rgb value = rgb_mul(rgb_mul(p->beta, ratio), rgb_scale(source, distance));
+    p->radiance = rgb_add(p->radiance,
+        rgb_scale(value, 1.0f / rgb_mean(rgb_mul(p->r_u, ratio))));
+}
+
+HD int path_null(path_state *p, const path_point *at, rgb majorant)
+{
+    rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
+    rgb chance = rgb_sub(majorant, drawn);
+    float driver = rgb_get(chance, p->driver);
+    if (!(driver > 0.0f))
+        return PATH_ENDED;      /* density 0: drawn by rounding only */
+    float scale = 1.0f / driver;
+    p->beta = rgb_mul(p->beta, rgb_scale(rgb_sub(majorant, at->all_t),
+                                         scale));
+    p->r_u = rgb_mul(p->r_u, rgb_scale(chance, scale));
+    return PATH_THROUGH;
+}
+
+/* What happens at a tentative collision. On PATH_SCATTERED *which is the
+ * medium's place in the walk. */
+HD int path_collide(path_state *p, const media_walk *w,
+                    const path_point *at, rgb majorant, int *which)
+{
+    float m = rgb_get(majorant, p->driver);
+    rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
+    if (rgb_get(drawn, p->driver) > m * 1.00001f)
+        p->count->majorant_exceeded++;
+    float x = rng_fine(&p->random) * m;
+    for (int i = 0; i < w->count; i++) {
+        float sigma = rgb_get(at->sigma_s[i], p->driver);
+        if (x < p->boost * sigma) {
+            rgb ratio = rgb_scale(at->sigma_s[i], 1.0f / sigma);
+            p->beta = rgb_mul(p->beta, rgb_scale(ratio, 1.0f / p->boost));
+            p->r_u = rgb_mul(p->r_u, ratio);
+            *which = i;
+            return PATH_SCATTERED;
+        }
+        x -= p->boost * sigma;
+    }
+    if (x < rgb_get(at->all_a, p->driver))
+        return PATH_ENDED;
+    return path_null(p, at, majorant);
+}
+
+/* How far tentative collisions outnumber the majorant's. With a boost they
+ * must leave room for nulls everywhere: these carry the weight of what is
+ * scattered too often. */
+HD float path_room(const path_state *p)
+{
+    return p->boost > 1.0f ? 2.0f * p->boost : 1.0f;
+}
+
+/* Delta tracking to t1. On PATH_SCATTERED, *out tells where. */
+HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
+                  path_event *out)
+{
+    float tau = rng_optical_depth(&p->random);
+    rgb source = s->field.births ? rgb_gray(0.0f)
+                                 : path_uniform_source(s, p, w);
+    do {
+        rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
+                                 path_room(p));
+        float driver = rgb_get(majorant, p->driver);
+        float t = w->t;
+        for (;;) {
+            float left = driver * (w->t_end - t);
+            if (!(tau < left)) {
+                path_gather(p, source, majorant, w->t_end - t);
+                path_fly(p, majorant, w->t_end - t);
+                tau -= left;
+                break;
+            }
+            path_gather(p, source, majorant, tau / driver);
+            path_fly(p, majorant, tau / driver);
+            t += tau / driver;
+            tau = rng_optical_depth(&p->random);
+            path_point at;
+            int which;
+            path_point_at(s, p, w, t, majorant, &at);
+            int event = path_collide(p, w, &at, majorant, &which);
+            out->t = t;
+            if (event == PATH_SCATTERED) {
+                out->medium = w->part[which].medium;
+                out->sigma_s = rgb_mean(at.all_s);
+                p->count->collisions++;
+            }
+            if (event != PATH_THROUGH)
+                return event;
+        }
+    } while (walk_next(s, w));
+    return PATH_THROUGH;
+}
+
+/* Scattering, and in *all attenuation, of all active media in the middle of
+ * the walk's piece. */
+HD float path_middle(const flat_scene *s, const path_state *p,
+                     const media_walk *w, float *all)
+{
+    float t = 0.5f * (w->t + w->t_end), sum = 0.0f;
+    vec3 x = vec3_mad(p->o, t, p->d);
+    *all = 0.0f;
+    for (int i = 0; i < w->count; i++) {
+        const flat_medium *m = &s->media[w->part[i].medium];
+        if (w->part[i].bound.density == 0.0f)
+            continue;
+        field_point at = lattice_point(s, &w->part[i], x, t);
+        float density = medium_density(s, m, &at);
+        sum += rgb_max(m->sigma_s) * density;
+        *all += rgb_max(m->sigma_t) * density;
+    }
+    return sum;
+}
+
+/* Thin media scatter few of the eye's rays: draw such events more often, up
+ * to about one a ray, by one look at each piece. Each then carries less, and
+ * what passes unscattered as much more as it comes less often: unbiased for
+ * any factor that only the ray decides. */
+HD float path_boost(const path_state *p, float tau)
+{
+    const float enough = 1.5f, most = 8.0f;
+    return p->straight ? hd_max(hd_min(enough / tau, most), 1.0f) : 1.0f;
+}
+
+/* Looks at each piece once, as far as it matters. */
+HD void path_look(const flat_scene *s, path_state *p, float t1)
+{
+    const float enough = 1.5f;
+    media_walk w;
+    float scattered = 0.0f, lost = 0.0f, all;
+    path_stretch *look = &p->stretch;
+    look->on = s->local_lights;
+    look->first = look->last = p->after.t;
+    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    do {
+        float length = w.t_end - w.t;
+        float sigma_s = path_middle(s, p, &w, &all);
+        if (!(lost > 0.0f))
+            look->first = w.t;
+        if (all > 0.0f)
+            look->last = w.t_end;
+        scattered += sigma_s * length;
+        lost += all * length;
+    } while ((look->on || scattered < enough) && walk_next(s, &w));
+    p->boost = path_boost(p, scattered);
+    float length = look->last - look->first;
+    look->on = look->on && scattered > 0.0f && length > 0.0f;
+    look->scatter = p->boost * scattered / length;
+    look->stop = look->scatter + (lost - scattered) / length;
+    /* Not where next to nothing comes through. */
+    look->last = hd_min(look->last, look->first + 30.0f * length / lost);
+}
+
+HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
+{
+    for (int i = 0; i < w->count; i++)
+        if (!rgb_is_black(s->media[w->part[i].medium].sigma_s))
+            return true;
+    return false;
+}
+
+/* Where nothing scatters, the line integral is exact. */
+HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
+{
+    line_integral line;
+    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line.radiance = rgb_gray(0.0f);
+    line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
+                   false, &line);
+    path_add(p, rgb_mul(p->beta, line.radiance));
+    p->beta = rgb_mul(p->beta, line_transmittance(&line));
+    return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;
+}
+
+#endif

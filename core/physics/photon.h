@@ -1,0 +1,322 @@
+/* photon.h - one photon from its birth to its end: what a backend's trace
+ * stage loops over. */
+#ifndef CORE_PHYSICS_PHOTON_H
+#define CORE_PHYSICS_PHOTON_H
+#include "core/physics/photon_birth.h"
+
+/* The source of a photon: they take turns by their shares. */
+HD int photon_source_of(const photon_job *job, uint64_t photon)
+{
+    double u = ((double)photon + (double)job->shift_share) /
+               (double)job->count;
+    int i = 0;
+    while (i < job->sources - 1 && u >= job->source[i].cumulative)
+        i++;
+    return i;
+}
+
+HD void photon_begin(const flat_scene *s, const photon_job *job,
+                     uint64_t photon, photon_state *p, photon_counters *c)
+{
+    float u[PHOTON_DIMENSIONS];
+    const photon_source *source = &job->source[photon_source_of(job, photon)];
+    photon_place(job, photon, u);
+    photon_birth(s, source, u,
+                 rng_make(job->seed, job->frame, PHOTON_PASS, photon), p,
+                 &c->track);
+    float scale = (float)(1.0 / (source->share * job->power));
+    p->path.beta = rgb_scale(p->path.beta, scale);
+    c->photons++;
+    c->books.emitted += photon_power(p);
+}
+
+/* ---- flights ----------------------------------------------------------- */
+
+/* Lays the flight up to t, with that power. */
+HD void photon_lay(const flat_scene *s, photon_state *p, photon_counters *c,
+                   float t, rgb beta, rgb r_u)
+{
+    if (p->stored && c->tally.sum && !s->field.ball && t > p->laid)
+        radiance_lay(s, &c->tally, p->path.o, p->path.d, p->laid, t,
+                     rgb_scale(beta, 1.0f / rgb_mean(r_u)));
+    p->laid = t;
+}
+
+HD bool photon_gray(rgb c)
+{
+    return c.r == c.g && c.g == c.b;
+}
+
+/* Flies from t to t + step. Where the channels fly differently, the power
+ * changes on the way: it is told at a point of it. */
+HD void photon_fly(const flat_scene *s, photon_state *p, photon_counters *c,
+                   rgb majorant, float t, float step)
+{
+    if (!photon_gray(majorant)) {
+        rgb ratio = path_ratio(&p->path, majorant,
+                               step * rng_float(&p->path.random));
+        photon_lay(s, p, c, t + step, rgb_mul(p->path.beta, ratio),
+                   rgb_mul(p->path.r_u, ratio));
+    }
+    path_fly(&p->path, majorant, step);
+}
+
+/* Delta tracking over the walk, as path_track. */
+HD int photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
+                    media_walk *w, path_event *out)
+{
+    path_state *a = &p->path;
+    float tau = rng_optical_depth(&a->random);
+    do {
+        rgb majorant = path_majorant(s, w, false);
+        float driver = rgb_get(majorant, a->driver), t = w->t, left;
+        while (left = driver * (w->t_end - t), tau < left) {
+            photon_fly(s, p, c, majorant, t, tau / driver);
+            t += tau / driver;
+            tau = rng_optical_depth(&a->random);
+            path_point at;
+            int which = 0;
+            path_point_at(s, a, w, t, majorant, &at);
+            rgb beta = a->beta, r_u = a->r_u;
+            int event = path_collide(a, w, &at, majorant, &which);
+            if (event != PATH_THROUGH || !photon_gray(at.all_t))
+                photon_lay(s, p, c, t, beta, r_u);
+            out->t = t;
+            if (event == PATH_SCATTERED)
+                out->medium = w->part[which].medium;
+            if (event != PATH_THROUGH)
+                return event;
+        }
+        photon_fly(s, p, c, majorant, t, w->t_end - t);
+        tau -= left;
+    } while (walk_next(s, w));
+    return PATH_THROUGH;
+}
+
+/* ---- events ------------------------------------------------------------ */
+
+HD void photon_end(const photon_state *p, double *book)
+{
+    *book += photon_power(p);
+}
+
+/* The end of a light's first flight at t: its power is told. */
+HD void photon_arrive(const flat_scene *s, photon_state *p,
+                      photon_counters *c, float t, float factor)
+{
+    double before = photon_power(p);
+    p->path.beta = rgb_scale(p->path.beta, photon_law(s, p, t) * factor);
+    p->light = -1;
+    c->books.units += photon_power(p) - before;
+}
+
+HD bool photon_roulette(photon_state *p, photon_counters *c)
+{
+    double before = photon_power(p);
+    bool alive = path_survives(&p->path);
+    c->books.roulette += before - (alive ? photon_power(p) : 0.0);
+    return alive;
+}
+
+/* Stores an event at p, of light that came along d. */
+HD void photon_store(const flat_scene *s, const photon_state *p,
+                     photon_counters *c, vec3 at, vec3 d, int phase, float g)
+{
+    if (!p->stored || !c->tally.sum || !s->field.ball)
+        return;
+    c->stored++;
+    radiance_splat(s, &c->tally, at, d, phase, g,
+                   rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u)));
+}
+
+HD bool photon_scatter(const flat_scene *s, photon_state *p,
+                       photon_counters *c, const path_event *event)
+{
+    const flat_medium *m = &s->media[event->medium];
+    vec3 d = p->path.d, at = vec3_mad(p->path.o, event->t, d);
+    c->events++;
+    photon_store(s, p, c, at, d, m->phase, m->g);
+    if (p->light >= 0) {
+        bool seen = s->lights[p->light].media_interaction != 0;
+        d = photon_arrives(s, p, event->t);
+        photon_arrive(s, p, c, event->t, phase_pov_scale(m->phase));
+        if (!seen) {
+            c->books.media += photon_power(p);
+            return false;
+        }
+    }
+    float pdf, u = rng_float(&p->path.random);
+    vec3 next = phase_sample(m->phase, m->g, d, u, rng_float(&p->path.random),
+                             &pdf);
+    path_turn(&p->path, at, next, pdf);
+    p->path.boost = 1.0f;
+    p->direct = 0;
+    p->stored = 1;
+    return photon_roulette(p, c);
+}
+
+/* A lobe about the mirror direction as wide as the finish's highlights. */
+HD float photon_lobe(const flat_material *m)
+{
+    float power = 1e6f;
+    if (m->phong > 0.0f)
+        power = hd_min(power, m->phong_size);
+    if (m->specular > 0.0f && m->roughness > 0.0f)
+        power = hd_min(power, 0.25f / m->roughness);
+    return hd_max(power, 0.0f);
+}
+
+HD float photon_lobe_pdf(float power, float cosine)
+{
+    return cosine > 0.0f ? 0.5f * (power + 1.0f) * WARP_INV_PI *
+                               fm_pow(cosine, power)
+                         : 0.0f;
+}
+
+/* Where a photon leaves the surface for, with the density of that. */
+HD vec3 photon_leaves(photon_state *p, const hit_point *at, bool highlights,
+                      float *pdf)
+{
+    rng *r = &p->path.random;
+    float u = rng_float(r), v = rng_float(r);
+    vec3 out = warp_frame_to_world(warp_frame(at->ng),
+                                   warp_cosine_hemisphere(u, v));
+    *pdf = warp_cosine_hemisphere_pdf(vec3_dot(at->ng, out));
+    if (!highlights)
+        return out;
+    float power = photon_lobe(at->material);
+    vec3 mirror = vec3_mad(p->path.d, -2.0f * vec3_dot(at->ns, p->path.d),
+                           at->ns);
+    if (rng_chance(r, 0.5f)) {
+        float cosine = fm_pow(1.0f - u, 1.0f / (power + 1.0f));
+        float sine = sqrtf(hd_max(1.0f - cosine * cosine, 0.0f));
+        out = warp_frame_to_world(warp_frame(mirror),
+                                  warp_around_z(cosine, sine, v));
+        *pdf = warp_cosine_hemisphere_pdf(vec3_dot(at->ng, out));
+    }
+    *pdf = 0.5f * (*pdf + photon_lobe_pdf(power, vec3_dot(mirror, out)));
+    return out;
+}
+
+/* Power off the surface over power onto it, per solid angle: the light comes
+ * per area seen along its way, and leaves so. */
+HD rgb photon_reflects(const hit_point *at, vec3 d, vec3 out, bool highlights)
+{
+    vec3 wi = vec3_scale(d, -1.0f);
+    float in = vec3_dot(at->ng, wi), leaves = vec3_dot(at->ng, out);
+    if (!(in > 1e-6f) || !(leaves > 0.0f))
+        return rgb_gray(0.0f);
+    rgb value = highlights
+        ? surface_light(at->material, at->color, at->opacity, at->ns, out, wi)
+        : surface_matte(at->material, at->color, at->opacity,
+                        vec3_dot(at->ns, wi));
+    return rgb_scale(value, leaves * WARP_INV_PI / in);
+}
+
+HD bool photon_bounce(const flat_scene *s, photon_state *p,
+                      photon_counters *c, const ray_hit *h,
+                      const hit_point *at)
+{
+    bool highlights = false, first = p->light >= 0;
+    if (first) {
+        const flat_light *l = &s->lights[p->light];
+        highlights = l->shadows && surface_has_highlight(at->material);
+        photon_arrive(s, p, c, h->t, LIGHT_PI / light_medium_factor(s));
+    }
+    double before = photon_power(p);
+    rgb value = rgb_gray(0.0f);
+    float pdf = 0.0f;
+    vec3 out = at->ng;
+    if (p->direct || s->surfaces_indirect) {
+        out = photon_leaves(p, at, highlights, &pdf);
+        value = photon_reflects(at, p->path.d, out, highlights);
+    }
+    if (!(pdf > 0.0f) || rgb_is_black(value)) {
+        c->books.surfaces += before;
+        return false;
+    }
+    p->path.beta = rgb_mul(p->path.beta, rgb_scale(value, 1.0f / pdf));
+    c->books.surfaces += before - photon_power(p);
+    c->bounces++;
+    path_turn(&p->path, surface_offset(at->p, at->ng), out, pdf);
+    p->direct = 0;
+    p->stored = 1;
+    return photon_roulette(p, c);
+}
+
+HD bool photon_surface(const flat_scene *s, photon_state *p,
+                       photon_counters *c, const bvh_ray *r, const ray_hit *h)
+{
+    if (hit_material(s, h) >= 0) {
+        hit_point at = hit_resolve(s, r, h);
+        double before = photon_power(p);
+        if (p->light >= 0 && (s->shapes[h->shape].flags & SHAPE_NO_SHADOW))
+            at.pass = rgb_gray(1.0f);
+        bool passes = path_passes(&p->path, &at);
+        c->books.surfaces += before - photon_power(p);
+        if (!passes && p->direct && container_is_unbounded(s, h->shape)) {
+            photon_end(p, &c->books.walls);
+            return false;
+        }
+        if (!passes)
+            return photon_bounce(s, p, c, h, &at);
+    }
+    shadow_cross(s, h, &p->path.inside);
+    p->path.after = *h;
+    return !rgb_is_black(p->path.beta);
+}
+
+/* One flight, to the next event or surface. False: the photon has ended. */
+HD bool photon_segment(const flat_scene *s, photon_state *p,
+                       photon_counters *c)
+{
+    path_state *a = &p->path;
+    bvh_ray r = bvh_ray_make(a->o, a->d);
+    ray_hit h = bvh_nearest(s, &r, &a->after, s->far);
+    path_event at;
+    media_walk w;
+    int event = PATH_THROUGH;
+    c->track.rays++;
+    if (h.shape < 0)
+        container_leave_bounded(s, &a->inside);
+    p->laid = a->after.t;
+    walk_begin(s, &w, &a->inside, true, a->o, a->d, a->after.t, h.t);
+    c->track.overflow += w.overflow;
+    double before = photon_power(p);
+    if (w.count > 0)
+        event = photon_track(s, p, c, &w, &at);
+    c->books.media += before - photon_power(p);
+    if (event == PATH_THROUGH)
+        photon_lay(s, p, c, h.t, a->beta, a->r_u);
+    if (++p->events > PHOTON_EVENTS) {
+        photon_end(p, &c->books.dropped);
+        return false;
+    }
+    if (event == PATH_SCATTERED)
+        return photon_scatter(s, p, c, &at);
+    if (event == PATH_ENDED)
+        photon_end(p, &c->books.media);
+    else if (h.shape >= 0)
+        return photon_surface(s, p, c, &r, &h);
+    else
+        photon_end(p, &c->books.escaped);
+    return false;
+}
+
+/* The whole of photons [first, first + n). */
+HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
+                   uint64_t n, photon_counters *c)
+{
+    for (uint64_t i = first; i < first + n; i++) {
+        photon_state p;
+        photon_begin(s, job, i, &p, c);
+        if (rgb_is_black(p.path.beta))
+            continue;
+        if (p.emission && s->field.births)
+            photon_store(s, &p, c, p.path.o, p.path.d, PHASE_ISOTROPIC, 0.0f);
+        while (photon_segment(s, &p, c))
+            ;
+    }
+}
+
+#endif

@@ -1,0 +1,345 @@
+/* radiance.h - the field of scattered light: how flights are laid into it,
+ * and what a medium makes of it.
+ *
+ * A photon adds its power times the length that it flies in a cell to that
+ * cell's fluence, to the vector flux the same times its direction, and to what
+ * goes toward the eye the same times the phase function [Lucy 1999; METHODS.md
+ * 4.4]: divided by the cell's volume the sums are unbiased for its means. They
+ * are kept in fixed point, so that no order of additions can be told from
+ * another. */
+#ifndef CORE_PHYSICS_RADIANCE_H
+#define CORE_PHYSICS_RADIANCE_H
+#include "core/physics/phase.h"
+#include "core/physics/scene.h"
+
+/* A deposit of 1 (the mean photon's power across one side of a cell) counts
+ * as much; and no single one counts as more than RADIANCE_MOST, so that 2^33
+ * of the mean size have room in a cell. */
+#define RADIANCE_ONE 268435456.0
+#define RADIANCE_MOST 1048576.0f
+
+typedef struct {
+    int64_t *sum;           /* field.numbers a cell                        */
+    uint64_t clipped;       /* deposits above RADIANCE_MOST                */
+} radiance_tally;
+
+HD void radiance_add(int64_t *sum, double value)
+{
+    int64_t x = (int64_t)(value * RADIANCE_ONE + (value < 0.0 ? -0.5 : 0.5));
+#ifdef __CUDA_ARCH__
+    atomicAdd((unsigned long long *)sum, (unsigned long long)x);
+#else
+    __atomic_fetch_add(sum, x, __ATOMIC_RELAXED);
+#endif
+}
+
+/* Number of the cell's first value over field.numbers, or -1. */
+HD int64_t radiance_cell(const flat_scene *s, int x, int y, int z)
+{
+    const radiance_lattice *f = &s->field;
+    int64_t brick = (x >> 3) + (int64_t)f->bricks[0] *
+                    ((y >> 3) + (int64_t)f->bricks[1] * (z >> 3));
+    int32_t slot = s->radiance_slots[brick];
+    if (slot < 0)
+        return -1;
+    return (int64_t)slot * 512 + ((z & 7) * 8 + (y & 7)) * 8 + (x & 7);
+}
+
+HD void radiance_add_rgb(int64_t *sum, rgb value)
+{
+    radiance_add(sum, (double)value.r);
+    radiance_add(sum + 1, (double)value.g);
+    radiance_add(sum + 2, (double)value.b);
+}
+
+/* The way from p to the eye. */
+HD vec3 radiance_to_eye(const flat_scene *s, vec3 p)
+{
+    const camera *c = &s->view;
+    return vec3_normalize(c->orthographic ? vec3_scale(c->direction, -1.0f)
+                                          : vec3_sub(c->location, p));
+}
+
+/* Lays power times length (in sides of a cell) of a flight along d into one
+ * cell, which it crosses around p. */
+HD void radiance_deposit(const flat_scene *s, radiance_tally *t, int64_t cell,
+                         vec3 p, vec3 d, rgb value)
+{
+    const radiance_lattice *f = &s->field;
+    int64_t *sum = t->sum + cell * f->numbers;
+    if (!(fabsf(value.r) + fabsf(value.g) + fabsf(value.b) < RADIANCE_MOST)) {
+        t->clipped++;
+        return;
+    }
+    if (f->eye >= 0)
+        radiance_add_rgb(sum + f->eye,
+                         rgb_scale(value, phase_eval_between(f->phase, f->g,
+                             d, radiance_to_eye(s, p))));
+    if (f->fluence >= 0)
+        radiance_add_rgb(sum + f->fluence, value);
+    for (int c = 0; f->flux >= 0 && c < 3; c++) {
+        float x = rgb_get(value, c);
+        radiance_add_rgb(sum + f->flux + 3 * c,
+                         rgb_make(x * d.x, x * d.y, x * d.z));
+    }
+}
+
+/* First and last cell of an axis whose middles lie within r cells of q. */
+HD void radiance_span(const radiance_lattice *f, int axis, float q, float r,
+                      int *first, int *last)
+{
+    int end = 8 * f->bricks[axis] - 1;
+    *first = -hd_floor(r - q);
+    *last = hd_floor(q + r);
+    *first = *first < 0 ? 0 : *first;
+    *last = *last > end ? end : *last;
+}
+
+/* Adds an event at p of a photon that came along d to the cells in whose ball
+ * it lies: the sums of a gather over all photons there [Jensen and Christensen
+ * 1998], without a list of photons. */
+HD void radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
+                       int phase, float g, rgb power)
+{
+    const radiance_lattice *f = &s->field;
+    float r = f->radius / f->side, q[3];
+    int lo[3], hi[3];
+    for (int i = 0; i < 3; i++) {
+        q[i] = (vec3_get(p, i) - f->origin[i]) / f->side - 0.5f;
+        radiance_span(f, i, q[i], r, &lo[i], &hi[i]);
+    }
+    if (!(rgb_max(power) < RADIANCE_MOST && rgb_min(power) > -RADIANCE_MOST)) {
+        t->clipped++;
+        return;
+    }
+    for (int z = lo[2]; z <= hi[2]; z++)
+        for (int y = lo[1]; y <= hi[1]; y++)
+            for (int x = lo[0]; x <= hi[0]; x++) {
+                vec3 off = vec3_make((float)x - q[0], (float)y - q[1],
+                                     (float)z - q[2]);
+                int64_t cell = radiance_cell(s, x, y, z);
+                if (cell < 0 || !(vec3_dot(off, off) <= r * r))
+                    continue;
+                vec3 eye = radiance_to_eye(s, vec3_mad(p, f->side, off));
+                radiance_add_rgb(t->sum + cell * f->numbers,
+                    rgb_scale(power, phase_eval_between(phase, g, d, eye)));
+            }
+}
+
+/* A flight on its way through the lattice. */
+typedef struct {
+    float o[3], d[3];       /* in cells                                    */
+    float t, end;
+    float next[3];          /* distances of the next plane of each axis    */
+    int32_t cell[3];
+} radiance_walk;
+
+HD float radiance_plane(const radiance_walk *w, int axis)
+{
+    if (w->d[axis] == 0.0f)
+        return INFINITY;
+    float plane = (float)(w->cell[axis] + (w->d[axis] > 0.0f));
+    return (plane - w->o[axis]) / w->d[axis];
+}
+
+/* False where o + t d, t in [t0, t1], misses the lattice. */
+HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
+                       radiance_walk *w)
+{
+    const radiance_lattice *f = &s->field;
+    w->t = t0;
+    w->end = t1;
+    for (int i = 0; i < 3; i++) {
+        w->o[i] = (vec3_get(o, i) - f->origin[i]) / f->side;
+        w->d[i] = vec3_get(d, i) / f->side;
+        float size = (float)(8 * f->bricks[i]);
+        if (w->d[i] == 0.0f) {
+            if (!(w->o[i] >= 0.0f && w->o[i] < size))
+                return false;
+            continue;
+        }
+        float a = -w->o[i] / w->d[i], b = (size - w->o[i]) / w->d[i];
+        w->t = hd_max(w->t, hd_min(a, b));
+        w->end = hd_min(w->end, hd_max(a, b));
+    }
+    if (!(w->t < w->end))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        int c = hd_floor(w->o[i] + w->t * w->d[i]);
+        int last = 8 * f->bricks[i] - 1;
+        w->cell[i] = c < 0 ? 0 : c > last ? last : c;
+        w->next[i] = radiance_plane(w, i);
+    }
+    return true;
+}
+
+/* Goes to the next cell; false beyond the lattice. */
+HD bool radiance_step(const flat_scene *s, radiance_walk *w)
+{
+    int axis = w->next[0] <= w->next[1] ? 0 : 1;
+    axis = w->next[axis] <= w->next[2] ? axis : 2;
+    w->cell[axis] += w->d[axis] > 0.0f ? 1 : -1;
+    if (w->cell[axis] < 0 || w->cell[axis] >= 8 * s->field.bricks[axis])
+        return false;
+    w->next[axis] = radiance_plane(w, axis);
+    return true;
+}
+
+/* Lays the flight o + t d, t in [t0, t1], d of unit length, of a photon of
+ * that power into the cells that it crosses. */
+HD void radiance_lay(const flat_scene *s, radiance_tally *t, vec3 o, vec3 d,
+                     float t0, float t1, rgb power)
+{
+    radiance_walk w;
+    if (!radiance_begin(s, o, d, t0, t1, &w))
+        return;
+    do {
+        float next = hd_min(w.next[0], hd_min(w.next[1], w.next[2]));
+        float stop = hd_min(next, w.end), length = stop - w.t;
+        int64_t cell = radiance_cell(s, w.cell[0], w.cell[1], w.cell[2]);
+        if (cell >= 0 && length > 0.0f)
+            radiance_deposit(s, t, cell, vec3_mad(o, w.t + 0.5f * length, d),
+                             d, rgb_scale(power, length / s->field.side));
+        w.t = hd_max(w.t, stop);
+    } while (w.t < w.end && radiance_step(s, &w));
+}
+
+/* ---- reading ----------------------------------------------------------- */
+
+typedef struct {
+    rgb eye, fluence;
+    vec3 flux[3];           /* of each channel                             */
+} radiance_point;
+
+HD rgb radiance_rgb(const float *v)
+{
+    return rgb_make(v[0], v[1], v[2]);
+}
+
+/* What a cell has, `weight` times; `eye`: only what goes there, if the field
+ * has it. */
+HD void radiance_blend(const radiance_lattice *f, const float *v, bool eye,
+                       float weight, radiance_point *out)
+{
+    if (eye && f->eye >= 0) {
+        out->eye = rgb_add(out->eye,
+                           rgb_scale(radiance_rgb(v + f->eye), weight));
+        return;
+    }
+    out->fluence = rgb_add(out->fluence,
+                           rgb_scale(radiance_rgb(v + f->fluence), weight));
+    for (int c = 0; f->flux >= 0 && c < 3; c++) {
+        const float *x = v + f->flux + 3 * c;
+        out->flux[c] = vec3_mad(out->flux[c], weight,
+                                vec3_make(x[0], x[1], x[2]));
+    }
+}
+
+HD radiance_point radiance_nothing(void)
+{
+    radiance_point out;
+    out.eye = out.fluence = rgb_gray(0.0f);
+    out.flux[0] = out.flux[1] = out.flux[2] = vec3_make(0.0f, 0.0f, 0.0f);
+    return out;
+}
+
+/* Place of p between the centres of cells of one axis, within the lattice. */
+HD int radiance_place(const radiance_lattice *f, float p, int axis,
+                      float *fraction)
+{
+    float last = (float)(8 * f->bricks[axis] - 1);
+    float x = (p - f->origin[axis]) / f->side - 0.5f;
+    x = hd_min(hd_max(x, 0.0f), last);
+    int i = (int)hd_min(x, last - 1.0f);
+    *fraction = x - (float)i;
+    return i;
+}
+
+/* Interpolated between the centres of those cells that are there. `eye`: for
+ * the light that goes on to the eye, see radiance_seen. */
+HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
+{
+    radiance_point out = radiance_nothing();
+    float fraction[3], sum = 0.0f;
+    int at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = radiance_place(&s->field, vec3_get(p, i), i, &fraction[i]);
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        int64_t cell = radiance_cell(s, at[0] + x, at[1] + y, at[2] + z);
+        if (cell < 0)
+            continue;
+        float weight = (x ? fraction[0] : 1.0f - fraction[0]) *
+                       (y ? fraction[1] : 1.0f - fraction[1]) *
+                       (z ? fraction[2] : 1.0f - fraction[2]);
+        radiance_blend(&s->field, s->radiance + cell * s->field.numbers, eye,
+                       weight, &out);
+        sum += weight;
+    }
+    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+    out.eye = rgb_scale(out.eye, scale);
+    out.fluence = rgb_scale(out.fluence, scale);
+    for (int c = 0; c < 3; c++)
+        out.flux[c] = vec3_scale(out.flux[c], scale);
+    return out;
+}
+
+/* A phase function as an isotropic part and a lobe of Henyey and Greenstein
+ * of the same mean cosine; returns the lobe's part. Rayleigh's, which is even,
+ * counts as isotropic. */
+HD float radiance_lobe(int kind, float g, float *lobe_g)
+{
+    switch (kind) {
+    case PHASE_MIE_HAZY:
+        *lobe_g = 0.8f;
+        return 0.5f;
+    case PHASE_MIE_MURKY:
+        *lobe_g = 0.941176471f;
+        return 1.0f - PHASE_MURKY_ISOTROPIC;
+    case PHASE_HENYEY_GREENSTEIN:
+        *lobe_g = g;
+        return 1.0f;
+    default:
+        *lobe_g = 0.0f;
+        return 0.0f;
+    }
+}
+
+/* Int p L over all directions of one channel, toward w: the light is taken as
+ * a lobe of Henyey and Greenstein around the flux, of its mean cosine; that
+ * folded with the medium's is one again, their g multiplied (METHODS.md
+ * 6.1). */
+HD float radiance_channel(float fluence, vec3 flux, float lobe, float g,
+                          vec3 w)
+{
+    float even = (1.0f - lobe) * WARP_INV_4PI * fluence;
+    float size = vec3_length(flux);
+    if (lobe == 0.0f)
+        return even;
+    if (!(size > 0.0f) || !(fluence > 0.0f))
+        return even + lobe * WARP_INV_4PI * fluence;
+    float mean = hd_min(size / fluence, 0.999f);
+    float cosine = hd_max(hd_min(vec3_dot(flux, w) / size, 1.0f), -1.0f);
+    return even + lobe * fluence *
+           phase_hg_eval(g * mean, 1.0f - cosine, 1.0f + cosine);
+}
+
+/* What a medium scatters of the field's light toward the unit vector w, per
+ * scattering coefficient. */
+HD rgb radiance_toward(const radiance_point *x, int kind, float g, vec3 w)
+{
+    float lobe_g, lobe = radiance_lobe(kind, g, &lobe_g);
+    return rgb_make(
+        radiance_channel(x->fluence.r, x->flux[0], lobe, lobe_g, w),
+        radiance_channel(x->fluence.g, x->flux[1], lobe, lobe_g, w),
+        radiance_channel(x->fluence.b, x->flux[2], lobe, lobe_g, w));
+}
+
+/* The same of a point read for the eye, w the way there. */
+HD rgb radiance_seen(const flat_scene *s, const radiance_point *x, int kind,
+                     float g, vec3 w)
+{
+    return s->field.eye >= 0 ? x->eye : radiance_toward(x, kind, g, w);
+}
+
+#endif

@@ -1,0 +1,280 @@
+#include "core/radiance.h"
+#include <math.h>
+#include <stdlib.h>
+#include "core/physics/radiance.h"
+
+/* Cells along the side of a cube as large as the media's box, at most: finer
+ * ones would hold more noise than detail. */
+#define FIELD_CELLS 64.0
+
+/* Bytes of a number while photons are added up, and after. */
+#define NUMBER_BYTES (sizeof(int64_t) + sizeof(float))
+
+struct layout {
+    struct flat *flat;
+    const struct brume_photon_options *options;
+    bool seen; /* only what the eye can see is asked for  */
+    radiance_lattice field;
+};
+
+/* A medium's lattice asks for cells no finer than its voxels. */
+static double voxel_side(const struct flat *f)
+{
+    double side = 0.0;
+    for (size_t i = 0; i < f->media_count; i++) {
+        const flat_medium *m = &f->media[i];
+        if (m->uniform || rgb_is_black(m->sigma_s))
+            continue;
+        matrix map;
+        for (int k = 0; k < 12; k++)
+            map.m[k / 4][k % 4] = (double)m->to_cell.m[k];
+        double voxel = 0.125 / cbrt(fabs(matrix_determinant(&map)));
+        side = side == 0.0 ? voxel : fmin(side, voxel);
+    }
+    return side;
+}
+
+static bool is_isotropic(const flat_medium *m)
+{
+    return m->phase == PHASE_ISOTROPIC ||
+           (m->phase == PHASE_HENYEY_GREENSTEIN && m->g == 0.0f);
+}
+
+/* The first medium that scatters; *alike: all others do so likewise. */
+static const flat_medium *first_phase(const struct flat *f, bool *alike)
+{
+    const flat_medium *first = NULL;
+    *alike = true;
+    for (size_t i = 0; i < f->media_count; i++) {
+        const flat_medium *m = &f->media[i];
+        if (rgb_is_black(m->sigma_s))
+            continue;
+        first = first ? first : m;
+        *alike = *alike && m->phase == first->phase && m->g == first->g;
+    }
+    return first;
+}
+
+static bool has_surfaces(const struct flat *f)
+{
+    for (size_t i = 0; i < f->shapes_count; i++)
+        if (f->shapes[i].material >= 0)
+            return true;
+    return false;
+}
+
+/* The eye's rays ask for what goes there, those that surfaces send on for
+ * what goes anywhere. */
+static void choose_numbers(struct layout *l)
+{
+    const struct flat *f = l->flat;
+    radiance_lattice *out = &l->field;
+    bool alike;
+    const flat_medium *m = first_phase(f, &alike);
+    bool even = alike && is_isotropic(m);
+    bool bounces = f->view.surfaces_indirect && has_surfaces(f);
+    out->eye = out->fluence = out->flux = -1;
+    out->phase = m->phase;
+    out->g = m->g;
+    out->numbers = 0;
+    l->seen = !bounces && !l->options->everywhere && !f->view.view.orthographic;
+    if (out->ball || (alike && !even)) {
+        out->eye = 0;
+        out->numbers = 3;
+    }
+    if (out->ball)
+        return;
+    if (out->eye < 0 || bounces) {
+        out->fluence = out->numbers;
+        out->numbers += 3;
+    }
+    if (out->fluence >= 0 && !even) {
+        out->flux = out->numbers;
+        out->numbers += 9;
+    }
+}
+
+/* Whether a medium may scatter in a box of unit space. */
+static bool medium_in_box(const struct flat *f, const flat_medium *m,
+                          const float lo[3], const float hi[3])
+{
+    if (rgb_is_black(m->sigma_s))
+        return false;
+    if (m->uniform || m->outside.density > 0.0f)
+        return true;
+    vec3 a = vec3_make(INFINITY, INFINITY, INFINITY), b = vec3_scale(a, -1.0f);
+    for (int i = 0; i < 8; i++) {
+        vec3 p = affine_point(&m->to_cell, vec3_make(i & 1 ? lo[0] : hi[0],
+                                                     i & 2 ? lo[1] : hi[1],
+                                                     i & 4 ? lo[2] : hi[2]));
+        a = vec3_min(a, p);
+        b = vec3_max(b, p);
+    }
+    int first[3], last[3];
+    for (int i = 0; i < 3; i++) {
+        first[i] = hd_floor(hd_max(vec3_get(a, i), 0.0f));
+        last[i] = hd_floor(hd_min(vec3_get(b, i), (float)m->cells[i] - 0.5f));
+    }
+    for (int z = first[2]; z <= last[2]; z++)
+        for (int y = first[1]; y <= last[1]; y++)
+            for (int x = first[0]; x <= last[0]; x++)
+                if (f->cells[m->cell + (uint64_t)x +
+                             (uint64_t)m->cells[0] *
+                                 ((uint64_t)y +
+                                  (uint64_t)m->cells[1] * (uint64_t)z)]
+                        .density > 0.0f)
+                    return true;
+    return false;
+}
+
+/* Whether a plane through the eye with that normal, which the picture lies
+ * before, leaves some corner of the box less than `margin` behind it. */
+static bool box_before(const camera *c, vec3 n, const float lo[3],
+                       const float hi[3], float margin)
+{
+    vec3 far = vec3_make(n.x > 0.0f ? hi[0] : lo[0], n.y > 0.0f ? hi[1] : lo[1],
+                         n.z > 0.0f ? hi[2] : lo[2]);
+    return vec3_dot(n, vec3_sub(far, c->location)) >= -margin * vec3_length(n);
+}
+
+/* Whether the box touches the view of a perspective camera, its planes moved
+ * out by the margin. */
+static bool box_seen(const camera *c, const float lo[3], const float hi[3],
+                     float margin)
+{
+    vec3 side[2] = {c->right, c->up}, other[2] = {c->up, c->right};
+    if (!box_before(c, c->direction, lo, hi, margin))
+        return false;
+    for (int i = 0; i < 4; i++) {
+        float half = i & 1 ? 0.5f : -0.5f;
+        vec3 edge = vec3_mad(c->direction, half, side[i >> 1]);
+        vec3 n = vec3_cross(edge, other[i >> 1]);
+        if (vec3_dot(n, c->direction) < 0.0f)
+            n = vec3_scale(n, -1.0f);
+        if (!box_before(c, n, lo, hi, margin))
+            return false;
+    }
+    return true;
+}
+
+/* With a margin of a cell, for what is interpolated. */
+static bool brick_scatters(const struct layout *l, const int32_t at[3])
+{
+    const radiance_lattice *f = &l->field;
+    float lo[3], hi[3];
+    for (int i = 0; i < 3; i++) {
+        lo[i] = f->origin[i] + (8.0f * (float)at[i] - 1.0f) * f->side;
+        hi[i] = lo[i] + 10.0f * f->side;
+    }
+    if (l->seen && !box_seen(&l->flat->view.view, lo, hi, 1.8f * f->side))
+        return false;
+    for (size_t i = 0; i < l->flat->media_count; i++)
+        if (medium_in_box(l->flat, &l->flat->media[i], lo, hi))
+            return true;
+    return false;
+}
+
+/* Bricks that scatter; their numbers go to `slots` if it is not NULL. */
+static uint64_t number_bricks(const struct layout *l, int32_t *slots)
+{
+    const int32_t *n = l->field.bricks;
+    uint64_t count = 0;
+    int32_t at[3];
+    for (at[2] = 0; at[2] < n[2]; at[2]++)
+        for (at[1] = 0; at[1] < n[1]; at[1]++)
+            for (at[0] = 0; at[0] < n[0]; at[0]++) {
+                bool scatters = brick_scatters(l, at);
+                if (slots)
+                    *slots++ = scatters ? (int32_t)count : -1;
+                count += scatters;
+            }
+    return count;
+}
+
+/* The lattice with cells of that side around the middle of the media. */
+static void set_cells(struct layout *l, double side)
+{
+    const scene_reach *r = &l->flat->view.reach;
+    l->field.side = (float)side;
+    for (int i = 0; i < 3; i++) {
+        double extent = (double)(r->hi[i] - r->lo[i]);
+        double bricks = fmax(ceil(extent / side / 8.0 * 0.9999), 1.0);
+        l->field.bricks[i] = (int32_t)bricks;
+        l->field.origin[i] = (float)(0.5 *
+                                         ((double)r->lo[i] + (double)r->hi[i]) -
+                                     4.0 * bricks * side);
+    }
+}
+
+static double first_side(const struct flat *f)
+{
+    const scene_reach *r = &f->view.reach;
+    double volume = 1.0, longest = 0.0;
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, (double)(r->hi[i] - r->lo[i]));
+    longest = fmax(longest, 1e-6);
+    for (int i = 0; i < 3; i++)
+        volume *= fmax((double)(r->hi[i] - r->lo[i]), 1e-2 * longest);
+    return fmax(cbrt(volume) / FIELD_CELLS, voxel_side(f));
+}
+
+static uint64_t field_bytes(const struct layout *l, uint64_t bricks)
+{
+    return bricks * 512 * (uint64_t)l->field.numbers * NUMBER_BYTES;
+}
+
+bool radiance_layout(struct flat *flat, const struct brume_options *options,
+                     struct brume_error *err)
+{
+    struct layout l = {.flat = flat, .options = &options->photons};
+    uint64_t room = UINT64_MAX, bricks;
+    l.field.ball = l.options->gather == BRUME_GATHER_BALL;
+    l.field.single = l.options->single == BRUME_SINGLE_FIELD &&
+                     flat->lights_count > 0;
+    l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
+    choose_numbers(&l);
+    if (options->memory > 0) {
+        uint64_t used = flat_bytes(flat);
+        room = options->memory > used ? (options->memory - used) / 2 : 0;
+    }
+    double side = l.options->spacing > 0.0 ? l.options->spacing * flat->unit
+                                           : first_side(flat);
+    if (l.field.births && !l.field.ball)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "emission by photons needs gather ball");
+    for (;; side *= 1.1) {
+        set_cells(&l, side);
+        bricks = number_bricks(&l, NULL);
+        if (field_bytes(&l, bricks) <= room || bricks <= 8)
+            break;
+    }
+    size_t all = (size_t)l.field.bricks[0] * (size_t)l.field.bricks[1] *
+                 (size_t)l.field.bricks[2];
+    int32_t *slots = FLAT_EXTEND(flat, radiance_slots, all, err);
+    if (!slots || !FLAT_EXTEND(flat, radiance,
+                               bricks * 512 * (size_t)l.field.numbers, err))
+        return false;
+    number_bricks(&l, slots);
+    l.field.radius = (float)(l.options->radius > 0.0
+                                 ? l.options->radius * flat->unit
+                                 : 2.0 * (double)l.field.side);
+    flat->view.field = l.field;
+    flat_view(flat);
+    return true;
+}
+
+uint64_t radiance_sum_bytes(const struct flat *flat)
+{
+    return flat->radiance_count * sizeof(int64_t);
+}
+
+void radiance_resolve(struct flat *flat, const int64_t *sum, double unit)
+{
+    const radiance_lattice *f = &flat->view.field;
+    double side = (double)f->side, r = (double)f->radius;
+    double volume = f->ball ? 4.0 / 3.0 * 3.14159265358979 * r * r * r
+                            : side * side;
+    double scale = unit / (RADIANCE_ONE * volume);
+    for (size_t i = 0; i < flat->radiance_count; i++)
+        flat->radiance[i] = (float)((double)sum[i] * scale);
+}

@@ -1,0 +1,17 @@
+/* radiance.h - the lattice of the field of scattered light, laid out for a
+ * scene before any photon flies. */
+#ifndef CORE_RADIANCE_H
+#define CORE_RADIANCE_H
+#include "core/flat.h"
+
+/* Chooses the cells of flat->view.field and makes room for them in the flat
+ * scene; as coarse as the memory that the options leave asks for. */
+bool radiance_layout(struct flat *flat, const struct brume_options *options,
+                     struct brume_error *err);
+
+/* Bytes of the sums that photons are added up in. */
+uint64_t radiance_sum_bytes(const struct flat *flat);
+
+/* From sums to the field: `unit` is the power of the mean photon. */
+void radiance_resolve(struct flat *flat, const int64_t *sum, double unit);
+#endif
