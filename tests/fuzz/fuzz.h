@@ -32,7 +32,7 @@ static inline void fuzz_scene(const uint8_t *data, size_t size)
         .length = size,
         .all_errors = size > 0 && (data[size - 1] & 1),
         .ambient = PARSE_AMBIENT_INIT,
-        .limits = {.macro_depth = 100, .iterations = 200, .tokens = 20000,
+        .limits = {.macro_depth = 100, .iterations = 200, .tokens = 5000,
                    .memory = 64 << 20, .seconds = 5},
     };
     struct parse_result result;
