@@ -6,6 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/brume.h"
+/* The functions of a scene are core's own, which keeps them in its lists. */
+typedef struct core_scene core_scene;
+#define brume_scene core_scene
+#include "core/scene.h"
+#undef brume_scene
 
 /* More than these are counted, not kept. */
 enum { FAKE_ROOM = 64 };
@@ -35,6 +40,7 @@ struct fake_lists {
 };
 
 struct brume_scene {
+    struct core_scene core;                 /* first: where core looks */
     struct fake_lists list[FAKE_ROOM];      /* of the shapes */
     struct brume_camera camera;
     struct brume_globals globals;
@@ -83,6 +89,11 @@ brume_scene *brume_scene_new(struct brume_error *err)
 
 void brume_scene_free(brume_scene *scene)
 {
+    if (!scene)
+        return;
+#define X(type, name) free(scene->core.name);
+    SCENE_LISTS(X)
+#undef X
     free(scene);
 }
 
