@@ -193,8 +193,14 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
                      "of 8^3 samples",
                      i, g->bricks[0], g->bricks[1], g->bricks[2]);
         }
-    if (f->cells_count > 0)
-        add_note(plan, "majorants: %zu cells of 8^3 voxels", f->cells_count);
+    for (size_t i = 0; i < f->media_count; i++) {
+        const flat_medium *m = &f->media[i];
+        if (!m->uniform)
+            add_note(plan,
+                     "medium %zu: majorants of %d x %d x %d cells of "
+                     "%g^3 voxels",
+                     i, m->cells[0], m->cells[1], m->cells[2], (double)m->side);
+    }
 }
 
 /* The range a field's file says it has; of a function, up to its largest. */

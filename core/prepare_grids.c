@@ -228,9 +228,9 @@ bool prepare_grids(const struct prepare *job, const struct assembly *a,
     return true;
 }
 
-/* Largest sample of a brick, its apron included. */
+/* Largest of the samples first to last of a brick, its apron included. */
 static float brick_bound(const struct flat *f, const flat_grid *g, int x, int y,
-                         int z)
+                         int z, const int first[3], const int last[3])
 {
     int32_t slot = f->slots[g->slot + (size_t)x +
                             (size_t)g->bricks[0] *
@@ -238,9 +238,11 @@ static float brick_bound(const struct flat *f, const flat_grid *g, int x, int y,
     if (slot < 0)
         return f->tiles[g->tile + (size_t)(-1 - slot)];
     const float *v = f->voxels + (g->brick + (size_t)slot) * BRICK_FLOATS;
-    float most = v[0];
-    for (int i = 1; i < BRICK_FLOATS; i++)
-        most = fmaxf(most, v[i]);
+    float most = 0.0f;
+    for (int k = first[2]; k <= last[2]; k++)
+        for (int j = first[1]; j <= last[1]; j++)
+            for (int i = first[0]; i <= last[0]; i++)
+                most = fmaxf(most, v[(k * BRICK_SIDE + j) * BRICK_SIDE + i]);
     return most;
 }
 
@@ -260,21 +262,50 @@ static void box_image(const matrix *map, const double lo[3], const double hi[3],
     }
 }
 
-/* Range of bricks that lookups in [lo, hi] of an axis read; true when some
- * fall outside of the grid. A tolerance of 2^-10 voxel covers the rounding of
- * positions; the bricks that only it reaches are left out where lookups are
- * continuous (prepare_media.c allows for their share). */
-static bool brick_range(const flat_grid *g, int axis, double lo, double hi,
-                        int *first, int *last)
+/* Range of samples of the grid, from 0, that lookups in [lo, hi] of an axis
+ * read; true when some fall outside. A tolerance of 2^-10 voxel covers the
+ * rounding of positions; the samples that only it reaches are left out where
+ * lookups are continuous (prepare_media.c allows for their share), but never
+ * all of a box that is thinner. */
+static bool sample_range(const flat_grid *g, int axis, double lo, double hi,
+                         int *first, int *last)
 {
-    double slack = g->nearest ? 1.0 / 1024 : -1.0 / 1024;
+    double slack = g->nearest ? 1.0 / 1024 : -fmin(1.0 / 1024, (hi - lo) / 4.0);
     double shift = (g->nearest ? 0.5 : 0.0) - g->origin[axis];
-    double a = floor((lo + shift - slack) / 8.0);
-    double b = floor((hi + shift + slack) / 8.0);
-    int top = g->bricks[axis] - 1;
+    double a = floor(lo + shift - slack);
+    double b = floor(hi + shift + slack);
+    int top = 8 * g->bricks[axis] - 1;
     *first = a < 0.0 ? 0 : a > top ? top + 1 : (int)a;
     *last = b > top ? top : b < 0.0 ? -1 : (int)b;
     return a < 0.0 || b > top;
+}
+
+/* The part of such a range that lies in a brick. The upper neighbours of what
+ * is looked up, which a lookup that interpolates reads too, are in it. */
+static void range_in_brick(const flat_grid *g, int brick, int first, int last,
+                           int *from, int *to)
+{
+    *from = first > 8 * brick ? first - 8 * brick : 0;
+    *to = last < 8 * brick + 7 ? last - 8 * brick : 7;
+    *to += g->nearest ? 0 : 1;
+}
+
+static float range_bound(const struct flat *flat, const flat_grid *g,
+                         const int first[3], const int last[3])
+{
+    float most = 0.0f;
+    int from[3], to[3];
+    for (int z = first[2] / 8; 8 * z <= last[2]; z++) {
+        range_in_brick(g, z, first[2], last[2], &from[2], &to[2]);
+        for (int y = first[1] / 8; 8 * y <= last[1]; y++) {
+            range_in_brick(g, y, first[1], last[1], &from[1], &to[1]);
+            for (int x = first[0] / 8; 8 * x <= last[0]; x++) {
+                range_in_brick(g, x, first[0], last[0], &from[0], &to[0]);
+                most = fmaxf(most, brick_bound(flat, g, x, y, z, from, to));
+            }
+        }
+    }
+    return most;
 }
 
 float prepare_field_bound(const struct flat *flat, int field,
@@ -294,13 +325,9 @@ float prepare_field_bound(const struct flat *flat, int field,
     int first[3], last[3];
     bool outside = false;
     for (int i = 0; i < 3; i++)
-        outside |= brick_range(g, i, a[i], b[i], &first[i], &last[i]);
-    float most = outside ? flat->tiles[g->tile] : 0.0f;
-    for (int z = first[2]; z <= last[2]; z++)
-        for (int y = first[1]; y <= last[1]; y++)
-            for (int x = first[0]; x <= last[0]; x++)
-                most = fmaxf(most, brick_bound(flat, g, x, y, z));
-    return most * f->scale;
+        outside |= sample_range(g, i, a[i], b[i], &first[i], &last[i]);
+    float most = range_bound(flat, g, first, last);
+    return fmaxf(most, outside ? flat->tiles[g->tile] : 0.0f) * f->scale;
 }
 
 float prepare_field_bound_everywhere(const struct flat *flat, int field)
@@ -309,10 +336,10 @@ float prepare_field_bound_everywhere(const struct flat *flat, int field)
     if (f->kind == FIELD_CONSTANT)
         return f->scale;
     const flat_grid *g = &flat->grids[f->grid];
-    float most = flat->tiles[g->tile];
-    for (int z = 0; z < g->bricks[2]; z++)
-        for (int y = 0; y < g->bricks[1]; y++)
-            for (int x = 0; x < g->bricks[0]; x++)
-                most = fmaxf(most, brick_bound(flat, g, x, y, z));
-    return most * f->scale;
+    const int first[3] = {0, 0, 0};
+    int last[3];
+    for (int i = 0; i < 3; i++)
+        last[i] = 8 * g->bricks[i] - 1;
+    return fmaxf(range_bound(flat, g, first, last), flat->tiles[g->tile]) *
+           f->scale;
 }

@@ -1,6 +1,6 @@
-/* Media and their majorant lattices: cells of 8^3 voxels of the grid that
- * leads, each with a bound on the product of the density fields and a word on
- * whether something glows there. */
+/* Media and their majorant lattices: cells of 8^3 or 4^3 voxels of the grid
+ * that leads, each with a bound on the product of the density fields and a word
+ * on whether something glows there. */
 #include <math.h>
 #include <string.h>
 #include "core/blackbody.h"
@@ -24,11 +24,16 @@
  * 1 to 0.03 by a fifth, and stayed from there. */
 #define GLOW_KAPPA 0.03f
 
+/* Free paths across a cell of 8 voxels, above which 4 are better: in the cloud
+ * of tests/bench/media.c, not in its smoke. */
+#define THICK 2.0
+
 struct lattice {
     const struct flat *flat;
     flat_medium *medium;
     matrix to_unit; /* lattice index space to unit space           */
     int32_t origin[3];
+    int32_t side; /* voxels along a side of a cell               */
     float rate;
     majorant_cell *cell;
 };
@@ -110,15 +115,15 @@ static bool lattice_extent(struct lattice *l, int lead, struct brume_error *err)
             include_field(f, &to_lead, more[i], lo, hi);
     double cells = 1.0;
     for (int i = 0; i < 3; i++) {
-        double first = floor((lo[i] - g->origin[i]) / 8.0);
-        double count = ceil((hi[i] - g->origin[i]) / 8.0) - first;
+        double first = floor((lo[i] - g->origin[i]) / l->side);
+        double count = ceil((hi[i] - g->origin[i]) / l->side) - first;
         cells *= count;
         if (cells > (double)MAX_CELLS)
             return brume_fail(err, BRUME_ERR_LIMIT,
                               "a medium's grids lie so far apart that their "
                               "common lattice has over %zu cells",
                               MAX_CELLS);
-        l->origin[i] = g->origin[i] + 8 * (int32_t)first;
+        l->origin[i] = g->origin[i] + l->side * (int32_t)first;
         l->medium->cells[i] = (int32_t)count;
     }
     return true;
@@ -209,8 +214,8 @@ static void fill_cell(void *context, size_t index, int thread)
     size_t rest = index;
     for (int i = 0; i < 3; i++) {
         size_t n = (size_t)l->medium->cells[i];
-        lo[i] = l->origin[i] + 8.0 * (double)(rest % n);
-        hi[i] = lo[i] + 8.0;
+        lo[i] = l->origin[i] + l->side * (double)(rest % n);
+        hi[i] = lo[i] + l->side;
         rest /= n;
     }
     l->cell[index] = cell_bound(l, bound_in_box, lo, hi);
@@ -248,6 +253,55 @@ static void allow_for_rounding(struct lattice *l, size_t cells)
     }
 }
 
+/* The lattice of cells of l->side voxels; their bounds behind those of the
+ * media before. */
+static bool fill_lattice(const struct prepare *job, struct lattice *l, int lead,
+                         const matrix *to_index, struct brume_error *err)
+{
+    flat_medium *m = l->medium;
+    if (!lattice_extent(l, lead, err))
+        return false;
+    double lo[3], hi[3], back[3];
+    size_t cells = 1;
+    for (int i = 0; i < 3; i++) {
+        lo[i] = l->origin[i];
+        hi[i] = lo[i] + (double)l->side * m->cells[i];
+        back[i] = -lo[i] / l->side;
+        cells *= (size_t)m->cells[i];
+        m->origin[i] = (float)l->origin[i];
+    }
+    matrix shift = matrix_scale_move(1.0 / l->side, back);
+    shift = matrix_compose(&shift, to_index);
+    m->to_cell = matrix_affine(&shift);
+    m->side = (float)l->side;
+    m->outside = cell_bound(l, bound_beyond, lo, hi);
+    job->flat->cells_count = m->cell;
+    l->cell = FLAT_EXTEND(job->flat, cells, cells, err);
+    if (!l->cell)
+        return false;
+    parallel_for(job->threads, cells, fill_cell, l, NULL);
+    allow_for_rounding(l, cells);
+    return true;
+}
+
+/* Whether cells of half the side pay: where the mean cell that is not empty is
+ * over THICK free paths wide at its bound (METHODS 1.1), and there are not too
+ * many. */
+static bool is_thick(const struct lattice *l, double voxel)
+{
+    const flat_medium *m = l->medium;
+    size_t cells = (size_t)m->cells[0] * (size_t)m->cells[1] *
+                   (size_t)m->cells[2];
+    double sum = 0.0, sigma = rgb_max(m->bound);
+    size_t full = 0;
+    for (size_t i = 0; i < cells; i++) {
+        sum += (double)l->cell[i].density;
+        full += l->cell[i].density > 0.0f ? 1 : 0;
+    }
+    return full > 0 && cells <= MAX_CELLS / 8 &&
+           sigma * sum / (double)full * l->side * voxel > THICK;
+}
+
 static bool make_lattice(const struct prepare *job, struct lattice *l, int lead,
                          struct brume_error *err)
 {
@@ -256,32 +310,17 @@ static bool make_lattice(const struct prepare *job, struct lattice *l, int lead,
     if (!matrix_invert(&to_index, &l->to_unit))
         return brume_fail(err, BRUME_ERR_SCENE,
                           "a grid's place in the scene has no inverse");
-    if (!lattice_extent(l, lead, err))
-        return false;
-    double lo[3], hi[3], back[3];
-    size_t cells = 1;
-    for (int i = 0; i < 3; i++) {
-        lo[i] = l->origin[i];
-        hi[i] = lo[i] + 8.0 * m->cells[i];
-        back[i] = -lo[i] / 8.0;
-        cells *= (size_t)m->cells[i];
-    }
-    matrix shift = matrix_scale_move(1.0 / 8.0, back);
-    shift = matrix_compose(&shift, &to_index);
-    m->to_cell = matrix_affine(&shift);
-    m->lead = lead;
-    for (int i = 0; i < 3; i++)
-        m->origin[i] = (float)l->origin[i];
     double voxel = cbrt(fabs(matrix_determinant(&l->to_unit)));
     l->rate = (float)(SAMPLES_PER_VOXEL / voxel);
-    m->outside = cell_bound(l, bound_beyond, lo, hi);
+    m->lead = lead;
     m->cell = job->flat->cells_count;
-    l->cell = FLAT_EXTEND(job->flat, cells, cells, err);
-    if (!l->cell)
+    l->side = 8;
+    if (!fill_lattice(job, l, lead, &to_index, err))
         return false;
-    parallel_for(job->threads, cells, fill_cell, l, NULL);
-    allow_for_rounding(l, cells);
-    return true;
+    if (!is_thick(l, voxel))
+        return true;
+    l->side = 4;
+    return fill_lattice(job, l, lead, &to_index, err);
 }
 
 static bool make_bounds(const struct prepare *job, flat_medium *m,

@@ -66,7 +66,8 @@ typedef struct {
     int32_t brightness, additive;
     int32_t lead;           /* the field whose grid the lattice follows    */
     affine to_cell;         /* unit space to lattice coordinates           */
-    float origin[3];        /* index of the lead grid = 8 cell + origin    */
+    float origin[3];        /* index of the lead grid = side cell + origin */
+    float side;             /* voxels of it along a side of a cell         */
     int32_t cells[3];
     uint64_t cell;          /* first of its majorant cells                 */
     majorant_cell outside;  /* bounds beyond the lattice                   */

@@ -167,9 +167,10 @@ HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
     vec3 q = vec3_mad(w->o, t, w->d);
     field_point x;
     x.p = p;
-    x.index = vec3_make(8.0f * lattice_clamp(q.x, w->cell[0]) + m->origin[0],
-                        8.0f * lattice_clamp(q.y, w->cell[1]) + m->origin[1],
-                        8.0f * lattice_clamp(q.z, w->cell[2]) + m->origin[2]);
+    const float side = m->side;
+    x.index = vec3_make(side * lattice_clamp(q.x, w->cell[0]) + m->origin[0],
+                        side * lattice_clamp(q.y, w->cell[1]) + m->origin[1],
+                        side * lattice_clamp(q.z, w->cell[2]) + m->origin[2]);
     x.lattice = s->fields[m->lead].lattice;
     return x;
 }

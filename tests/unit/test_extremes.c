@@ -340,6 +340,28 @@ static void extremes__faulty_voxels(void **state)
     check_white(&e);
 }
 
+/* Cells of a fine grid that are thinner than what rounding may be in a coarse
+ * one, on a face of its bricks, still have that one's density. */
+static void extremes__fine_in_coarse(void **state)
+{
+    (void)state;
+    struct brume_globals globals = plain_before(1.0);
+    brume_scene *s = truth_scene(&globals, 1.0, 1e-9);
+    struct grid *fine = grid_of(1, 1, 1, 1.0f, 1e-4);
+    struct grid *coarse = grid_of(1, 1, 2, 1.0f, 1.0);
+    for (int i = 0; i < 2; i++) {
+        fine->to_world[i][3] = -4e-4;
+        coarse->to_world[i][3] = -3.5;
+    }
+    fine->to_world[2][3] = 7.9995;
+    struct brume_medium m = dense_as(s, fine, 1250.0, 0.0);
+    m.density[m.densities++] = field_of(s, coarse);
+    truth_fill(s, truth_box(4e-4, 7.9995, 8.0003), &m);
+    struct estimate e = truth_render(s, 2, 2);
+    assert_int_equal(e.stats.majorant_exceeded, 0);
+    check_near("opacity", e.opacity, -expm1(-1.0), 1e-3);
+}
+
 /* Rays along faces, edges and the diagonal of bricks neither stick nor lose
  * their way. */
 static void extremes__rays_on_planes(void **state)
@@ -694,6 +716,7 @@ int main(void)
         cmocka_unit_test(extremes__long_paths_keep_directions),
         cmocka_unit_test(extremes__empty_and_tiny_grids),
         cmocka_unit_test(extremes__faulty_voxels),
+        cmocka_unit_test(extremes__fine_in_coarse),
         cmocka_unit_test(extremes__rays_on_planes),
         cmocka_unit_test(extremes__walks_never_turn_back),
         cmocka_unit_test(extremes__planes_are_not_summed),
