@@ -42,7 +42,7 @@ WARN    := -Wall -Wextra -Wpedantic -Wvla $(if $(filter 1,$(WERROR)),-Werror)
 COMMON  := $(OPT) -ffp-contract=off -fvisibility=hidden -pthread $(WARN)
 C       := $(CC) -std=c11 $(COMMON) -Wmissing-prototypes -Wstrict-prototypes
 CPP     := $(CXX) -std=c++17 $(COMMON)
-CU      := $(NVCC) -std=c++17 -O2 -fmad=false -arch=$(CUDA_ARCH)
+CU      := $(NVCC) -std=c++17 -O2 -diag-suppress 177,550 $(if $(filter 1,$(WERROR)),-Werror all-warnings) -fmad=false -arch=$(CUDA_ARCH)
 
 PACKAGES := OpenEXR libpng libjpeg jansson freetype2 zlib
 CPPFLAGS += -I. -I$(B) -D_GNU_SOURCE

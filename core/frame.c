@@ -29,27 +29,33 @@ struct frame_job {
     bool stopped;
 };
 
+#ifndef BRUME_CUDA
+static bool cuda_available(char *why, size_t size)
+{
+    snprintf(why, size, "this brume was built without a CUDA backend");
+    return false;
+}
+
+static const struct backend backend_cuda = {.name = "cuda",
+                                            .available = cuda_available};
+#endif
+
+/* By itself the GPU's, where there is one that has the integrator: the pictures
+ * are the same. */
 static const struct backend *choose_backend(const struct brume_options *o,
                                             struct brume_error *err)
 {
-#ifdef BRUME_CUDA
-    /* The choice by itself is the CPU's until tests/gpu has results that
-     * hold the two against each other. */
     char why[256] = "";
-    if (o->backend == BRUME_BACKEND_CUDA) {
-        if (backend_cuda.available(why, sizeof why))
-            return &backend_cuda;
-        brume_fail(err, BRUME_ERR_DEVICE, "no GPU can be used: %s", why);
-        return NULL;
-    }
-#else
-    if (o->backend == BRUME_BACKEND_CUDA) {
-        brume_fail(err, BRUME_ERR_DEVICE,
-                   "this brume was built without a CUDA backend");
-        return NULL;
-    }
-#endif
-    return &backend_cpu;
+    bool photons = o->integrator == BRUME_INTEGRATOR_PHOTON;
+    if (o->backend == BRUME_BACKEND_CPU ||
+        (o->backend == BRUME_BACKEND_AUTO && photons && !backend_cuda.trace))
+        return &backend_cpu;
+    if (backend_cuda.available(why, sizeof why))
+        return &backend_cuda;
+    if (o->backend == BRUME_BACKEND_AUTO)
+        return &backend_cpu;
+    brume_fail(err, BRUME_ERR_DEVICE, "no GPU can be used: %s", why);
+    return NULL;
 }
 
 static void set_goal(struct frame_job *j)
@@ -251,6 +257,23 @@ static bool run_photons(struct frame_job *j, const struct backend *b,
     return good;
 }
 
+/* Opens the chosen backend. One that was not asked for by name gives way to
+ * the CPU's where its memory is too small. */
+static void *open_backend(struct frame_job *j, const struct backend **b,
+                          const struct backend_frame *frame,
+                          struct brume_error *err)
+{
+    void *state = (*b)->open(frame, err);
+    if (state || *b == &backend_cpu || err->code != BRUME_ERR_MEMORY ||
+        j->options->backend != BRUME_BACKEND_AUTO)
+        return state;
+    char text[sizeof err->text + 40];
+    snprintf(text, sizeof text, "%s; the CPU renders instead", err->text);
+    warn(j, text);
+    *b = &backend_cpu;
+    return (*b)->open(frame, err);
+}
+
 static bool render_flat(struct frame_job *j, struct flat *flat,
                         struct brume_error *err)
 {
@@ -260,11 +283,11 @@ static bool render_flat(struct frame_job *j, struct flat *flat,
         return false;
     struct stages stages = plan_stages(flat, j->options);
     struct backend_frame frame = {flat, j->options, &stages, &j->film, tick, j};
-    snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
-             b->name);
-    void *state = b->open(&frame, err);
+    void *state = open_backend(j, &b, &frame, err);
     if (!state)
         return false;
+    snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
+             b->name);
     j->out->stats.seconds_prepare = timer_seconds() - j->start;
     bool good = !stages.photons || run_photons(j, b, state, flat, err);
     good = good && sample_passes(j, b, state, err);

@@ -50,7 +50,7 @@ static double judge_power(const flat_scene *s, const struct photons *p,
                           const photon_source *source, uint32_t stream)
 {
     double sum = 0.0;
-    track_counters count = {0, 0, 0, 0, 0, 0, 0};
+    track_counters count = {0};
     for (uint32_t i = 0; i < PILOTS; i++) {
         photon_state state;
         float u[PHOTON_DIMENSIONS];

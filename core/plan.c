@@ -47,6 +47,63 @@ bool plan_layout(struct flat *flat, const struct brume_options *options,
            radiance_layout(flat, options, err);
 }
 
+/* Whether a point may lie in several media, or shapes with media. */
+static bool has_many(const struct flat *f)
+{
+    int shapes = 0, media = 0, atmosphere = 0;
+    for (size_t i = 0; i < f->shapes_count; i++) {
+        const flat_shape *shape = &f->shapes[i];
+        if (shape->interior < 0 || !(shape->flags & SHAPE_HOLLOW))
+            continue;
+        shapes++;
+        media += f->interiors[shape->interior].count;
+    }
+    if (f->view.atmosphere >= 0)
+        atmosphere = f->interiors[f->view.atmosphere].count;
+    for (size_t i = 0; i < f->media_count; i++)
+        if (f->media[i].planes > 1)
+            return true;
+    return shapes > 1 || media + atmosphere > 1;
+}
+
+static bool has_clear(const struct flat *f)
+{
+    for (size_t i = 0; i < f->media_count; i++)
+        if (rgb_is_black(f->media[i].sigma_s))
+            return true;
+    return false;
+}
+
+static bool has_solids(const struct flat *f)
+{
+    for (size_t i = 0; i < f->shapes_count; i++)
+        if (leaf_is_solid(&f->shapes[i]))
+            return true;
+    return false;
+}
+
+static bool has_functions(const struct flat *f)
+{
+    for (size_t i = 0; i < f->materials_count; i++)
+        if (f->materials[i].function >= 0)
+            return true;
+    return f->sky_count > 0 && f->sky[0].function >= 0;
+}
+
+static int scene_needs(const struct flat *f)
+{
+    return (has_solids(f) ? MAY_SOLIDS : 0) |
+           (f->csg_count > 0 ? MAY_COMPOSITES : 0) |
+           (has_functions(f) ? MAY_FUNCTIONS : 0) |
+           (f->triangles_count > 0 ? MAY_MESHES : 0) |
+           (has_surfaces(f) ? MAY_SURFACES : 0) |
+           (has_emission(f) ? MAY_EMISSION : 0) |
+           (f->sky_count > 0 ? MAY_SKY : 0) |
+           (f->view.local_lights ? MAY_LAMPS : 0) |
+           (f->kd_count > 0 ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
+           (has_clear(f) ? MAY_CLEAR : 0);
+}
+
 struct stages plan_stages(const struct flat *f,
                           const struct brume_options *options)
 {
@@ -63,6 +120,7 @@ struct stages plan_stages(const struct flat *f,
               options->photons.single == BRUME_SINGLE_FIELD;
     s.single = f->view.scatters && f->lights_count > 0 && !s.cells;
     s.path = has_surfaces(f) || (lit && !s.photons);
+    s.needs = scene_needs(f) | (s.photons ? MAY_FIELD : 0);
     return s;
 }
 

@@ -12,6 +12,7 @@ struct stages {
     bool cells;             /* ... that holds what comes from lights too   */
     bool single;            /* what the lights give media, once scattered  */
     bool path;              /* anything beyond that                        */
+    int needs;              /* MAY_* of may.h: what the scene holds        */
 };
 
 struct stages plan_stages(const struct flat *flat,

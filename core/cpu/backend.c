@@ -50,9 +50,12 @@ static void sample_row(void *context, size_t index, int thread)
     struct film *film = s->frame.film;
     int y = film->y0 + (int)index, columns = film->x1 - film->x0;
     film_pixel *p = film->pixel + index * (size_t)columns;
-    for (int x = film->x0; x < film->x1; x++, p++)
-        pixel_run(&s->frame.flat->view, &s->job, x, y, film->samples,
-                  s->samples, p, &s->count[thread]);
+    for (int x = film->x0; x < film->x1; x++, p++) {
+        pixel_lines_run(&s->frame.flat->view, &s->job, x, y, film->samples,
+                        s->samples, p, &s->count[thread]);
+        pixel_paths_run(&s->frame.flat->view, &s->job, x, y, film->samples,
+                        s->samples, p, &s->count[thread]);
+    }
     size_t done = atomic_fetch_add(&s->rows_done, 1) + 1;
     /* Thread 0 is the caller's own. */
     if (thread == 0 &&
@@ -62,21 +65,15 @@ static void sample_row(void *context, size_t index, int thread)
 
 void cpu_add_track(const track_counters *c, struct brume_stats *out)
 {
-    out->paths += c->paths;
-    out->rays += c->rays;
-    out->shadow_rays += c->shadow_rays;
-    out->collisions += c->collisions;
-    out->lookups += c->lookups;
-    out->majorant_exceeded += c->majorant_exceeded;
-    out->overflow += c->overflow;
+#define X(name) out->name += c->name;
+    TRACK_COUNTERS(X)
+#undef X
 }
 
 static void add_counts(const struct cpu_state *s, struct brume_stats *out)
 {
-    for (int i = 0; i < s->threads; i++) {
-        cpu_add_track(&s->count[i].track, out);
-        out->rejected += s->count[i].rejected;
-    }
+    for (int i = 0; i < s->threads; i++)
+        cpu_add_track(&s->count[i], out);
 }
 
 static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,

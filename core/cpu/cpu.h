@@ -8,7 +8,7 @@ struct cpu_state {
     struct backend_frame frame;
     pixel_job job;
     int threads;
-    pixel_counters *count;      /* of each thread                          */
+    track_counters *count;      /* of each thread                          */
     uint32_t samples;           /* of this call                            */
     atomic_size_t rows_done;
     atomic_bool stop;

@@ -17,7 +17,7 @@ static void light_cell(const struct single *job, const int32_t at[3],
                        int64_t cell)
 {
     const radiance_lattice *f = &job->scene->field;
-    track_counters count = {0, 0, 0, 0, 0, 0, 0};
+    track_counters count = {0};
     vec3 x = vec3_make(f->origin[0] + ((float)at[0] + 0.5f) * f->side,
                        f->origin[1] + ((float)at[1] + 0.5f) * f->side,
                        f->origin[2] + ((float)at[2] + 0.5f) * f->side);

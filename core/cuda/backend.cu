@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
-#include "core/cuda/device.cuh"
+#include "core/cuda/sample.cuh"
 extern "C" {
 #include "core/backend.h"
 }
@@ -15,55 +15,17 @@ namespace
 /* Samples of one launch: short enough for a stop to be heard within a second
  * or so, long enough that threads find work when their first paths end. */
 const uint32_t samples_per_launch = 8;
-const int block_width = 8, block_height = 4; /* a warp a tile */
+
+/* From the leanest to the one that can do all. */
+const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
+                                       &sample_all};
 
 struct cuda_state {
     backend_frame frame;
     device_arena arena;
-    flat_scene scene; /* its pointers are the device's           */
-    film_pixel *pixel;
-    pixel_counters *count;
-    pixel_job job;
+    sample_job job;
+    const sample_stage *stage;
 };
-
-struct film_part {
-    int x0, y0, x1, y1;
-};
-
-__device__ void add_counter(uint64_t *sum, uint64_t value)
-{
-    if (value > 0)
-        atomicAdd(reinterpret_cast<unsigned long long *>(sum),
-                  static_cast<unsigned long long>(value));
-}
-
-__device__ void add_counters(pixel_counters *sum, const pixel_counters *c)
-{
-    add_counter(&sum->track.paths, c->track.paths);
-    add_counter(&sum->track.rays, c->track.rays);
-    add_counter(&sum->track.shadow_rays, c->track.shadow_rays);
-    add_counter(&sum->track.collisions, c->track.collisions);
-    add_counter(&sum->track.lookups, c->track.lookups);
-    add_counter(&sum->track.majorant_exceeded, c->track.majorant_exceeded);
-    add_counter(&sum->track.overflow, c->track.overflow);
-    add_counter(&sum->rejected, c->rejected);
-}
-
-__global__ void sample_pixels(flat_scene scene, pixel_job job, film_part part,
-                              uint32_t first, uint32_t n, film_pixel *pixel,
-                              pixel_counters *sum)
-{
-    int x = part.x0 + static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-    int y = part.y0 + static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
-    if (x >= part.x1 || y >= part.y1)
-        return;
-    size_t at = static_cast<size_t>(y - part.y0) *
-                    static_cast<size_t>(part.x1 - part.x0) +
-                static_cast<size_t>(x - part.x0);
-    pixel_counters count = {};
-    pixel_run(&scene, &job, x, y, first, n, &pixel[at], &count);
-    add_counters(sum, &count);
-}
 
 bool cuda_available(char *why, size_t size)
 {
@@ -87,7 +49,7 @@ void cuda_close(void *state)
 size_t frame_bytes(const cuda_state *s)
 {
     const flat_scene *view = &s->frame.flat->view;
-    size_t bytes = device_round(sizeof(pixel_counters)) +
+    size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel));
 #define X(type, name) bytes += device_round(view->name##_count * sizeof(type));
@@ -101,7 +63,7 @@ bool upload(cuda_state *s, brume_error *err)
 {
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
-    s->scene = *from;
+    s->job.scene = *from;
 #define X(type, name)                                                          \
     if (good) {                                                                \
         size_t bytes = from->name##_count * sizeof(type);                      \
@@ -109,7 +71,7 @@ bool upload(cuda_state *s, brume_error *err)
         good = device_check(                                                   \
             cudaMemcpy(to, from->name, bytes, cudaMemcpyHostToDevice),         \
             "uploading " #name, err);                                          \
-        s->scene.name = static_cast<const type *>(to);                         \
+        s->job.scene.name = static_cast<const type *>(to);                     \
     }
     SCENE_ARRAYS(X)
 #undef X
@@ -119,11 +81,34 @@ bool upload(cuda_state *s, brume_error *err)
 bool start_film(cuda_state *s, brume_error *err)
 {
     size_t bytes = film_pixels(s->frame.film) * sizeof(film_pixel);
-    s->pixel = static_cast<film_pixel *>(device_take(&s->arena, bytes));
-    s->count = static_cast<pixel_counters *>(
-        device_take(&s->arena, sizeof(pixel_counters)));
-    return device_check(cudaMemset(s->pixel, 0, bytes), "clearing the film",
+    s->job.pixel = static_cast<film_pixel *>(device_take(&s->arena, bytes));
+    s->job.count = static_cast<device_counters *>(
+        device_take(&s->arena, sizeof(device_counters)));
+    return device_check(cudaMemset(s->job.pixel, 0, bytes), "clearing the film",
                         err);
+}
+
+const sample_stage *choose_kernel(int needs)
+{
+    size_t i = 0;
+    while (needs & ~kernels[i]->may)
+        i++;
+    return kernels[i];
+}
+
+void describe_job(sample_job *job, const backend_frame *frame)
+{
+    const brume_options *o = frame->options;
+    const film *f = frame->film;
+    job->pixels.width = o->width;
+    job->pixels.height = o->height;
+    job->pixels.seed = o->seed;
+    job->pixels.frame = o->frame;
+    job->pixels.path = frame->stages->path || frame->stages->single;
+    job->x0 = f->x0;
+    job->y0 = f->y0;
+    job->x1 = f->x1;
+    job->y1 = f->y1;
 }
 
 void *cuda_open(const backend_frame *frame, brume_error *err)
@@ -134,11 +119,8 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
         return nullptr;
     }
     s->frame = *frame;
-    s->job.width = frame->options->width;
-    s->job.height = frame->options->height;
-    s->job.seed = frame->options->seed;
-    s->job.frame = frame->options->frame;
-    s->job.path = frame->stages->path || frame->stages->single;
+    s->stage = choose_kernel(frame->stages->needs);
+    describe_job(&s->job, frame);
     if (device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         start_film(s, err))
         return s;
@@ -146,34 +128,16 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     return nullptr;
 }
 
-bool launch(cuda_state *s, uint32_t first, uint32_t n, brume_error *err)
-{
-    const film *f = s->frame.film;
-    film_part part = {f->x0, f->y0, f->x1, f->y1};
-    dim3 block(block_width, block_height);
-    dim3 grid((f->x1 - f->x0 + block_width - 1) / block_width,
-              (f->y1 - f->y0 + block_height - 1) / block_height);
-    sample_pixels<<<grid, block>>>(s->scene, s->job, part, first, n, s->pixel,
-                                   s->count);
-    return device_check(cudaGetLastError(), "launching the path stage", err) &&
-           device_check(cudaDeviceSynchronize(), "the path stage", err);
-}
-
 bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
 {
-    pixel_counters c;
+    device_counters c;
     if (!device_check(
-            cudaMemcpy(&c, s->count, sizeof c, cudaMemcpyDeviceToHost),
+            cudaMemcpy(&c, s->job.count, sizeof c, cudaMemcpyDeviceToHost),
             "reading the counters", err))
         return false;
-    out->paths += c.track.paths;
-    out->rays += c.track.rays;
-    out->shadow_rays += c.track.shadow_rays;
-    out->collisions += c.track.collisions;
-    out->lookups += c.track.lookups;
-    out->majorant_exceeded += c.track.majorant_exceeded;
-    out->overflow += c.track.overflow;
-    out->rejected += c.rejected;
+#define X(name) out->name += c.name;
+    TRACK_COUNTERS(X)
+#undef X
     return true;
 }
 
@@ -184,19 +148,24 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
     const film *f = s->frame.film;
     if (film_pixels(f) == 0)
         return true;
-    if (!device_check(cudaMemset(s->count, 0, sizeof *s->count),
+    if (!device_check(cudaMemset(s->job.count, 0, sizeof *s->job.count),
                       "clearing the counters", err))
         return false;
     for (uint32_t done = 0; done < count;) {
         uint32_t n = count - done < samples_per_launch ? count - done
                                                        : samples_per_launch;
-        if (!launch(s, f->samples + done, n, err))
+        s->job.first = f->samples + done;
+        s->job.samples = n;
+        s->stage->launch(&s->job);
+        if (!device_check(cudaGetLastError(), "launching the path stage",
+                          err) ||
+            !device_check(cudaDeviceSynchronize(), "the path stage", err))
             return false;
         done += n;
         if (!s->frame.tick(s->frame.user, static_cast<double>(done) / count))
             return true;
     }
-    return device_check(cudaMemcpy(f->pixel, s->pixel,
+    return device_check(cudaMemcpy(f->pixel, s->job.pixel,
                                    film_pixels(f) * sizeof(film_pixel),
                                    cudaMemcpyDeviceToHost),
                         "reading the film", err) &&

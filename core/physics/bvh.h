@@ -48,8 +48,8 @@ HD void bvh_search(const flat_scene *s, const bvh_ray *r, uint32_t node,
 }
 
 /* Nearest hit behind `after` and before distance t_max. */
-HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
-                       const ray_hit *after, real t_max)
+HD_APART ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
+                             const ray_hit *after, real t_max)
 {
     ray_hit best = hit_none(t_max);
     best.key = 0;           /* t_max itself is excluded */
@@ -57,7 +57,7 @@ HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
         item_hit_shape(s, r, s->unbounded[i], after, &best);
     if (s->bvh_root >= 0)
         bvh_search(s, r, (uint32_t)s->bvh_root, after, &best);
-    if (s->kd_count > 0)
+    if (scene_may(MAY_KDTREE) && s->kd_count > 0)
         kd_search(s, r, after, &best);
     return best;
 }

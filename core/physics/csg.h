@@ -97,7 +97,8 @@ HD_APART bool csg_mesh(const flat_scene *s, const flat_shape *f,
 HD bool csg_primitive(const flat_scene *s, int32_t shape, const csg_place *at)
 {
     const flat_shape *f = &s->shapes[shape];
-    bool in = f->kind == SHAPE_MESH ? csg_mesh(s, f, at)
+    bool mesh = scene_may(MAY_MESHES) && f->kind == SHAPE_MESH;
+    bool in = mesh ? csg_mesh(s, f, at)
             : at->ray ? leaf_state(s, shape, at->ray, at->t, at->key)
                       : leaf_inside(s, f, at->p);
     return in != ((f->flags & SHAPE_INVERSE) != 0);

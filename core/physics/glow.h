@@ -99,10 +99,11 @@ HD glow_sample glow_choose(const flat_scene *s, rng *r)
     int i = glow_find_brick(bricks, g->count, rng_float(r));
     const float *v = s->glow_voxels + (g->first + (uint64_t)i) * 512;
     int voxel = glow_find(v, 512, rng_float(r));
-    vec3 q = vec3_make(
-        (float)(bricks[i].corner[0] + (voxel & 7)) + rng_float(r),
-        (float)(bricks[i].corner[1] + (voxel >> 3 & 7)) + rng_float(r),
-        (float)(bricks[i].corner[2] + (voxel >> 6)) + rng_float(r));
+    /* One after the other: arguments have no order. */
+    float x = rng_float(r), y = rng_float(r), z = rng_float(r);
+    vec3 q = vec3_make((float)(bricks[i].corner[0] + (voxel & 7)) + x,
+                       (float)(bricks[i].corner[1] + (voxel >> 3 & 7)) + y,
+                       (float)(bricks[i].corner[2] + (voxel >> 6)) + z);
     glow_sample out;
     out.p = affine_point(&g->from_index, q);
     out.medium = g->medium;

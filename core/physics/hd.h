@@ -9,15 +9,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* HD_INLINE may be __forceinline__: a state that no call is given a pointer
+ * to stays in registers. */
+#ifndef HD_INLINE
+#define HD_INLINE inline
+#endif
 #ifdef __CUDACC__
-#define HD static inline __host__ __device__
+#define HD static HD_INLINE __device__
 #else
 #define HD static inline
 #endif
 
 /* A function that stays one: called seldom, and large. */
 #ifdef __CUDACC__
-#define HD_APART static __noinline__ __host__ __device__
+#define HD_APART static __noinline__ __device__
 #else
 #define HD_APART static __attribute__((noinline, unused))
 #endif

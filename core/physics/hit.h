@@ -17,7 +17,7 @@ typedef struct {
 
 HD vec3 hit_position(const flat_scene *s, const bvh_ray *r, const ray_hit *h)
 {
-    if (h->triangle < 0)
+    if (!scene_may(MAY_MESHES) || h->triangle < 0)
         return vec3_mad(r->o, h->t, r->d);
     /* Barycentric: closer to the triangle than the ray is at a far hit. */
     const flat_triangle *f = &s->triangles[h->triangle];
@@ -74,7 +74,8 @@ HD vec3 hit_shape_normal(const flat_scene *s, const bvh_ray *r,
 /* The material of what is seen at the hit, or -1. */
 HD int32_t hit_material(const flat_scene *s, const ray_hit *h)
 {
-    return h->seen ? s->shapes[h->shape].material : -1;
+    bool seen = scene_may(MAY_SURFACES) && h->seen;
+    return seen ? s->shapes[h->shape].material : -1;
 }
 
 /* A pigment at a point: the light that goes back takes `color`, what comes
@@ -106,7 +107,7 @@ HD_APART hit_color hit_pattern(const flat_scene *s, const flat_material *m,
 HD hit_color hit_pigment(const flat_scene *s, const flat_material *m, vec3 p)
 {
     hit_color out;
-    if (m->function >= 0)
+    if (scene_may(MAY_FUNCTIONS) && m->function >= 0)
         return hit_pattern(s, m, p);
     int i = m->checker ? surface_checker(affine_point(&m->to_pattern, p)) : 0;
     out.color = m->color[i];
@@ -136,7 +137,7 @@ HD hit_point hit_resolve(const flat_scene *s, const bvh_ray *r,
     const flat_material *m = &s->materials[s->shapes[h->shape].material];
     out.material = m;
     out.p = hit_position(s, r, h);
-    if (h->triangle >= 0)
+    if (scene_may(MAY_MESHES) && h->triangle >= 0)
         hit_triangle_normals(s, h, &out.ng, &out.ns);
     else
         out.ng = out.ns = hit_shape_normal(s, r, h);

@@ -23,9 +23,9 @@ HD bool inside_shape(const flat_scene *s, int32_t shape, vec3 p)
 {
     const flat_shape *f = &s->shapes[shape];
     csg_place at = csg_at_point(p);
-    if (f->kind == SHAPE_COMPOSITE)
+    if (scene_may(MAY_COMPOSITES) && f->kind == SHAPE_COMPOSITE)
         return csg_holds(s, f->node, &at);
-    if (f->kind == SHAPE_MESH && f->tree < 0)
+    if (scene_may(MAY_MESHES) && f->kind == SHAPE_MESH && f->tree < 0)
         return f->triangles > 0 && inside_mesh(s, shape, p);
     return csg_primitive(s, shape, &at);
 }

@@ -12,7 +12,7 @@ HD bool item_accept(const flat_scene *s, const bvh_ray *r, bool out,
     if (csg_has_media(s, f) && f->kind != SHAPE_DISC)
         h->turn = out != ((f->flags & SHAPE_INVERSE) != 0) ? TURN_OUT
                                                            : TURN_IN;
-    if (f->node < 0)
+    if (!scene_may(MAY_COMPOSITES) || f->node < 0)
         return h->seen || h->turn != TURN_NONE;
     csg_place at = csg_on_ray(r, h->t, h->key);
     return csg_crossing(s, f, &at, h);
@@ -54,7 +54,7 @@ HD_APART bool item_leaves(const flat_scene *s, const bvh_ray *r,
                          const ray_hit *h)
 {
     const flat_shape *f = &s->shapes[h->shape];
-    if (f->node >= 0) {
+    if (scene_may(MAY_COMPOSITES) && f->node >= 0) {
         csg_place at = csg_on_ray(r, h->t, h->key);
         return !csg_mesh(s, f, &at);
     }
@@ -94,7 +94,7 @@ HD void item_hit(const flat_scene *s, const bvh_ray *r, const uint32_t *items,
 {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t item = items[i];
-        if (item < s->shapes_count)
+        if (!scene_may(MAY_MESHES) || item < s->shapes_count)
             item_hit_shape(s, r, (int32_t)item, after, best);
         else
             item_hit_triangle(s, r, item - s->shapes_count, after, best);

@@ -11,11 +11,13 @@
 #include "core/physics/solids.h"
 
 enum { SHAPE_MESH = 100, SHAPE_COMPOSITE };
-enum { LEAF_MAX_ROOTS = SOLID_MAX_ROOTS };
+enum { LEAF_MAX_ROOTS = (SCENE_MAY & MAY_SOLIDS) ? (int)SOLID_MAX_ROOTS
+                                                 : (int)SHAPE_MAX_ROOTS };
 
 HD bool leaf_is_solid(const flat_shape *f)
 {
-    return f->kind >= SOLID_FIRST && f->kind < SHAPE_MESH;
+    return scene_may(MAY_SOLIDS) && f->kind >= SOLID_FIRST &&
+           f->kind < SHAPE_MESH;
 }
 
 HD dvec3 leaf_solid_point(const double *m, dvec3 p)
@@ -111,6 +113,16 @@ HD dvec3 leaf_solid_side(const flat_scene *s, const flat_shape *f, dvec3 p,
     return dvec3_scale(n, length > 0.0 ? 1.0 / length : 0.0);
 }
 
+HD int leaf_rounded_roots(const flat_scene *s, const flat_shape *f,
+                          const bvh_ray *r, real *t, int *part)
+{
+    double u[SOLID_MAX_ROOTS];
+    int n = leaf_solid_roots(s, f, r, u, part);
+    for (int i = 0; i < n; i++)
+        t[i] = (real)u[i];
+    return n;
+}
+
 /* All roots of a primitive along the ray's line, ascending. */
 HD int leaf_roots(const flat_scene *s, const flat_shape *f, const bvh_ray *r,
                   real t[LEAF_MAX_ROOTS], int part[LEAF_MAX_ROOTS])
@@ -118,11 +130,7 @@ HD int leaf_roots(const flat_scene *s, const flat_shape *f, const bvh_ray *r,
     if (!leaf_is_solid(f))
         return shape_roots(f->kind, leaf_params(s, f), leaf_point(s, f, r->o),
                            leaf_vector(s, f, r->d), t, part);
-    double u[SOLID_MAX_ROOTS];
-    int n = leaf_solid_roots(s, f, r, u, part);
-    for (int i = 0; i < n; i++)
-        t[i] = (real)u[i];
-    return n;
+    return leaf_rounded_roots(s, f, r, t, part);
 }
 
 /* Whether the point is inside; not of a mesh. */

@@ -13,7 +13,7 @@
 #include "core/physics/walk.h"
 
 /* The last is the field's. */
-enum { LINE_LATTICES = 12 };
+enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY) ? 12 : 2 };
 
 typedef struct {
     double tau[3];          /* optical depth: long sums, so double         */
@@ -42,7 +42,7 @@ typedef struct {
 
 HD void line_add_lattice(line_job *job, vec3 o, vec3 d)
 {
-    line_lattice *l = &job->lattice[job->lattices++];
+    line_lattice *l = &job->lattice[part_place(job->lattices++)];
     l->o = o;
     l->d = d;
     l->inverse = vec3_make(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
@@ -70,6 +70,11 @@ HD void line_add_field(line_job *job)
                      vec3_scale(job->d, 1.0f / f->side));
 }
 
+HD int line_lattices(const line_job *job)
+{
+    return part_bound(job->lattices);
+}
+
 /* Distance of the first plane of one axis beyond t; none beyond 2^30 voxels
  * from the grid's origin, where the spacing of floats is over 64 voxels. */
 HD float line_plane(float o, float d, float inverse, float t)
@@ -87,7 +92,7 @@ HD float line_plane(float o, float d, float inverse, float t)
 /* Finds the planes beyond t, of the axes whose planes t has reached. */
 HD void line_advance(line_job *job, float t)
 {
-    for (int i = 0; i < job->lattices; i++) {
+    for (int i = 0; i < line_lattices(job); i++) {
         line_lattice *l = &job->lattice[i];
         if (!(l->next.x > t))
             l->next.x = line_plane(l->o.x, l->d.x, l->inverse.x, t);
@@ -101,7 +106,7 @@ HD void line_advance(line_job *job, float t)
 HD float line_stop(const line_job *job, float t, float t_end)
 {
     float stop = t_end;
-    for (int i = 0; i < job->lattices; i++) {
+    for (int i = 0; i < line_lattices(job); i++) {
         vec3 n = job->lattice[i].next;
         stop = hd_min(stop, hd_min(n.x, hd_min(n.y, n.z)));
     }
@@ -124,9 +129,9 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
     bool read = false;
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
-    if (job->scattered && job->s->field.ball)
+    if (scene_may(MAY_FIELD) && job->scattered && job->s->field.ball)
         out.source = radiance_at(job->s, p, true).eye;
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &job->s->media[w->part[i].medium];
         const majorant_cell *bound = &w->part[i].bound;
         if (bound->density == 0.0f && bound->rate == 0.0f)
@@ -134,15 +139,15 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         field_point x = lattice_point(job->s, &w->part[i], p, t);
         float density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_scale(m->sigma_t, density));
-        if (job->scattered && !job->s->field.ball && density > 0.0f &&
-            !rgb_is_black(m->sigma_s)) {
+        if (scene_may(MAY_FIELD) && job->scattered && !job->s->field.ball &&
+            density > 0.0f && !rgb_is_black(m->sigma_s)) {
             if (!read)
                 light = radiance_at(job->s, p, true);
             read = true;
             out.source = rgb_add(out.source,
                                  line_scattered(job, m, &light, density));
         }
-        if (!job->emission || bound->rate == 0.0f)
+        if (!scene_may(MAY_EMISSION) || !job->emission || bound->rate == 0.0f)
             continue;
         rgb q = medium_source(job->s, m, &x, density);
         if (!rgb_is_black(q))
@@ -183,7 +188,7 @@ HD void line_half(line_integral *out, const line_point *p, float length)
 
 HD bool line_piece_empty(const media_walk *w)
 {
-    for (int i = 0; i < w->count; i++)
+    for (int i = 0; i < walk_parts(w); i++)
         if (w->part[i].bound.density != 0.0f || w->part[i].bound.rate != 0.0f)
             return false;
     return true;
@@ -222,9 +227,10 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
     job.d = d;
     job.p_dir = p_dir;
     job.emission = emission;
-    job.scattered = scattered && s->field.numbers > 0;
+    job.scattered = scene_may(MAY_FIELD) && scattered &&
+                    s->field.numbers > 0;
     job.lattices = 0;
-    for (int i = 0; i < w.count; i++)
+    for (int i = 0; i < walk_parts(&w); i++)
         line_add_lattices(&job, &s->media[w.part[i].medium]);
     if (job.scattered)
         line_add_field(&job);

@@ -89,7 +89,8 @@ HD float path_along_share(const path_state *p, const flat_light *l, float t,
                           float sigma_s)
 {
     const path_stretch *look = &p->stretch;
-    if (!look->on || !l->local || !(t > look->first && t < look->last))
+    if (!scene_may(MAY_LAMPS) || !look->on || !l->local ||
+        !(t > look->first && t < look->last))
         return 0.0f;
     equiangular e = path_angles(p, l);
     float flight = p->boost * sigma_s *
@@ -137,7 +138,7 @@ HD rgb path_scattered(const flat_scene *s, const path_state *p, float t,
     vec3 x = vec3_mad(p->o, t, p->d);
     rgb sum = rgb_gray(0.0f);
     *sigma_s = 0.0f;
-    for (int i = -1; i < p->inside.count; i++) {
+    for (int i = -1; i < container_count(&p->inside); i++) {
         int32_t interior = i < 0 ? s->atmosphere
                                  : s->shapes[p->inside.shape[i]].interior;
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
@@ -264,7 +265,7 @@ HD void path_escape(const flat_scene *s, path_state *p)
 HD bool path_medium_at(const flat_scene *s, const container_set *set,
                        int medium)
 {
-    for (int i = -1; i < set->count; i++) {
+    for (int i = -1; i < container_count(set); i++) {
         int32_t interior = i < 0 ? s->atmosphere
                                  : s->shapes[set->shape[i]].interior;
         if (interior < 0)
@@ -280,7 +281,7 @@ HD bool path_medium_at(const flat_scene *s, const container_set *set,
 /* Next-event estimation to the emitting voxels of media. */
 HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
 {
-    if (s->glows_count == 0 || s->field.births)
+    if (!scene_may(MAY_EMISSION) || s->glows_count == 0 || s->field.births)
         return;
     glow_sample g = glow_choose(s, &p->random);
     vec3 to = vec3_sub(g.p, v->p);
@@ -317,12 +318,12 @@ HD int path_media(const flat_scene *s, path_state *p, float t1,
     p->count->overflow += w.overflow;
     if (w.count == 0)
         return PATH_THROUGH;
-    if (!path_walk_scatters(s, &w))
+    if (scene_may(MAY_CLEAR) && !path_walk_scatters(s, &w))
         return path_line(s, p, p->after.t, t1);
     p->boost = 1.0f;
-    if (p->straight || s->local_lights)
+    if (p->straight || path_has_lamps(s))
         path_look(s, p, t1);
-    if (p->stretch.on && !s->field.single)
+    if (scene_may(MAY_LAMPS) && p->stretch.on && !s->field.single)
         path_along(s, p);
     return path_track(s, p, &w, event);
 }

@@ -65,7 +65,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
     vec3 x = vec3_mad(p->o, t, p->d);
     rgb source = rgb_gray(0.0f);
     out->all_s = out->all_a = out->all_t = source;
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         const majorant_cell *bound = &w->part[i].bound;
         out->sigma_s[i] = rgb_gray(0.0f);
@@ -78,8 +78,8 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
         out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
         out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
-        if (bound->rate == 0.0f || p->straight || m->uniform ||
-            s->field.births)
+        if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
+            m->uniform || s->field.births)
             continue;
         rgb q = medium_source(s, m, &at, density);
         if (rgb_is_black(q))
@@ -98,11 +98,11 @@ HD void path_point_at(const flat_scene *s, path_state *p,
 HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
 {
     rgb sum = rgb_gray(0.0f);
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const majorant_cell *b = &w->part[i].bound;
         const flat_medium *m = &s->media[w->part[i].medium];
         sum = rgb_add(sum, rgb_scale(m->bound, b->density));
-        if (emission && !m->uniform)
+        if (scene_may(MAY_EMISSION) && emission && !m->uniform)
             sum = rgb_add(sum, rgb_gray(b->rate));
     }
     return sum;
@@ -133,9 +133,9 @@ HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
 {
     rgb sum = rgb_gray(0.0f);
     field_point anywhere = field_point_make(s, -1, p->o);
-    for (int i = 0; i < w->count && !p->straight; i++) {
+    for (int i = 0; i < walk_parts(w) && !p->straight; i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
-        if (m->uniform && m->emits)
+        if (scene_may(MAY_EMISSION) && m->uniform && m->emits)
             sum = rgb_add(sum, medium_source(s, m, &anywhere,
                                              m->outside.density));
     }
@@ -147,7 +147,7 @@ HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
  * point of it. */
 HD void path_gather(path_state *p, rgb source, rgb majorant, float distance)
 {
-    if (rgb_is_black(source))
+    if (!scene_may(MAY_EMISSION) || rgb_is_black(source))
         return;
     rgb ratio = path_ratio(p, majorant, distance * rng_float(&p->random));
     rgb value = rgb_mul(rgb_mul(p->beta, ratio), rgb_scale(source, distance));
@@ -179,7 +179,7 @@ HD int path_collide(path_state *p, const media_walk *w,
     if (rgb_get(drawn, p->driver) > m * 1.00001f)
         p->count->majorant_exceeded++;
     float x = rng_fine(&p->random) * m;
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         float sigma = rgb_get(at->sigma_s[i], p->driver);
         if (x < p->boost * sigma) {
             rgb ratio = rgb_scale(at->sigma_s[i], 1.0f / sigma);
@@ -233,7 +233,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
             int event = path_collide(p, w, &at, majorant, &which);
             out->t = t;
             if (event == PATH_SCATTERED) {
-                out->medium = w->part[which].medium;
+                out->medium = w->part[part_place(which)].medium;
                 out->sigma_s = rgb_mean(at.all_s);
                 p->count->collisions++;
             }
@@ -252,7 +252,7 @@ HD float path_middle(const flat_scene *s, const path_state *p,
     float t = 0.5f * (w->t + w->t_end), sum = 0.0f;
     vec3 x = vec3_mad(p->o, t, p->d);
     *all = 0.0f;
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         if (w->part[i].bound.density == 0.0f)
             continue;
@@ -274,6 +274,11 @@ HD float path_boost(const path_state *p, float tau)
     return p->straight ? hd_max(hd_min(enough / tau, most), 1.0f) : 1.0f;
 }
 
+HD bool path_has_lamps(const flat_scene *s)
+{
+    return scene_may(MAY_LAMPS) && s->local_lights;
+}
+
 /* Looks at each piece once, as far as it matters. */
 HD void path_look(const flat_scene *s, path_state *p, float t1)
 {
@@ -281,7 +286,7 @@ HD void path_look(const flat_scene *s, path_state *p, float t1)
     media_walk w;
     float scattered = 0.0f, lost = 0.0f, all;
     path_stretch *look = &p->stretch;
-    look->on = s->local_lights;
+    look->on = path_has_lamps(s);
     look->first = look->last = p->after.t;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
     do {
@@ -305,7 +310,7 @@ HD void path_look(const flat_scene *s, path_state *p, float t1)
 
 HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
 {
-    for (int i = 0; i < w->count; i++)
+    for (int i = 0; i < walk_parts(w); i++)
         if (!rgb_is_black(s->media[w->part[i].medium].sigma_s))
             return true;
     return false;

@@ -23,11 +23,6 @@ typedef struct {
     int32_t path;           /* 0: nothing but the straight line gives light */
 } pixel_job;
 
-typedef struct {
-    track_counters track;
-    uint64_t rejected;
-} pixel_counters;
-
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
  * of the first samples, then by every eighth. */
 enum { PIXEL_LINES_FIRST = 4, PIXEL_LINES_EVERY = 8 };
@@ -66,7 +61,7 @@ HD void pixel_sum(double out[3], rgb c)
 
 HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                    const container_set *set, uint32_t sample,
-                   film_pixel *out, pixel_counters *count)
+                   film_pixel *out, track_counters *count)
 {
     march_result m = march_line(s, set, o, d);
     if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
@@ -109,31 +104,54 @@ HD void pixel_spread(const pixel_job *job, uint64_t index, uint32_t i,
     u[2] = (float)(z >> 8) * 5.96046448e-08f;
 }
 
-/* Starts sample `i` of pixel (x, y): runs its straight line and begins its
- * path. */
-HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
-                    int32_t y, uint32_t i, path_state *path, film_pixel *out,
-                    pixel_counters *count)
+/* The eye's ray of sample i of pixel (x, y), and where it starts; *along is
+ * the sample's place in the third dimension. */
+HD rng pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
+                 int32_t y, uint32_t i, vec3 *o, vec3 *d, container_set *set,
+                 float *along)
 {
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
-    rng random = rng_make(job->seed, job->frame, i, index);
     float spread[3];
     pixel_spread(job, index, i, spread);
     float u = ((float)x + spread[0]) / (float)job->width - 0.5f;
     float v = 0.5f - ((float)y + spread[1]) / (float)job->height;
-    vec3 o, d;
-    container_set set;
-    camera_ray(&s->view, u, v, &o, &d);
-    pixel_containers(s, o, &set);
-    if (pixel_has_line(i))
+    camera_ray(&s->view, u, v, o, d);
+    pixel_containers(s, *o, set);
+    *along = spread[2];
+    return rng_make(job->seed, job->frame, i, index);
+}
+
+/* The straight lines of samples [first, first + n) of pixel (x, y). */
+HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
+                        int32_t y, uint32_t first, uint32_t n,
+                        film_pixel *out, track_counters *count)
+{
+    for (uint32_t i = first; i < first + n; i++) {
+        vec3 o, d;
+        float along;
+        container_set set;
+        if (!pixel_has_line(i))
+            continue;
+        pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
         pixel_line(s, o, d, &set, i, out, count);
+    }
+}
+
+HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
+                    int32_t y, uint32_t i, path_state *path,
+                    track_counters *count)
+{
+    vec3 o, d;
+    float along;
+    container_set set;
+    rng random = pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
     path_begin(path, o, d, &set, true, random);
-    path->along = spread[2];
-    count->track.paths++;
+    path->along = along;
+    count->paths++;
 }
 
 HD void pixel_end(const path_state *path, uint32_t i, film_pixel *out,
-                  pixel_counters *count)
+                  track_counters *count)
 {
     if (pixel_finite(path->radiance))
         pixel_sum(out->path[i & 1u], path->radiance);
@@ -141,20 +159,24 @@ HD void pixel_end(const path_state *path, uint32_t i, film_pixel *out,
         count->rejected++;
 }
 
-/* Adds samples [first, first + n) of pixel (x, y), in order. One loop over
- * segments, not paths: on a GPU a thread whose path has ended takes up its
- * next one while its neighbours go on with theirs. */
-HD void pixel_run(const flat_scene *s, const pixel_job *job, int32_t x,
-                  int32_t y, uint32_t first, uint32_t n, film_pixel *out,
-                  pixel_counters *count)
+/* The paths of samples [first, first + n) of pixel (x, y), in order. One loop
+ * over segments, not paths: on a GPU a thread whose path has ended takes up
+ * its next one while its neighbours go on with theirs. */
+HD void pixel_paths_run(const flat_scene *s, const pixel_job *job, int32_t x,
+                        int32_t y, uint32_t first, uint32_t n,
+                        film_pixel *out, track_counters *count)
 {
     path_state path;
     bool alive = false;
     uint32_t i = first;
+    if (!job->path) {
+        count->paths += n;
+        return;
+    }
     while (alive || i < first + n) {
         if (!alive)
-            pixel_begin(s, job, x, y, i++, &path, out, count);
-        alive = job->path && single_segment(s, &path, &count->track);
+            pixel_begin(s, job, x, y, i++, &path, count);
+        alive = single_segment(s, &path, count);
         if (!alive)
             pixel_end(&path, i - 1u, out, count);
     }

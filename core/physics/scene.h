@@ -11,11 +11,15 @@
 #include "core/physics/camera.h"
 #include "core/physics/hd.h"
 #include "core/physics/machine_code.h"
+#include "core/physics/may.h"
 #include "core/physics/vec.h"
 
 enum { FIELD_CONSTANT, FIELD_GRID };
 enum { BRICK_SIDE = 9, BRICK_FLOATS = 729 };    /* 8^3 samples + upper apron */
-enum { MAX_DENSITIES = 4, MAX_PLANES = 6, MAX_ACTIVE = 8, MAX_CONTAINERS = 8 };
+enum { MAX_DENSITIES = 4, MAX_PLANES = 6 };
+/* Media, and shapes with media, at one place that are followed. */
+enum { MAX_ACTIVE = (SCENE_MAY & MAY_MANY) ? 8 : 1,
+       MAX_CONTAINERS = MAX_ACTIVE };
 
 /* A grid of bricks; samples at integers of index space. Each stored brick
  * carries one more layer of samples on its upper sides, so that a trilinear

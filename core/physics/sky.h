@@ -50,11 +50,11 @@ HD_APART rgb sky_function(const flat_scene *s, vec3 d)
 /* Radiance that comes along -d; d of unit length. */
 HD rgb sky_radiance(const flat_scene *s, vec3 d)
 {
-    if (s->sky_count == 0)
+    if (!scene_may(MAY_SKY) || s->sky_count == 0)
         return s->background;
     const flat_sky *k = s->sky;
     float x, y;
-    if (k->function >= 0)
+    if (scene_may(MAY_FUNCTIONS) && k->function >= 0)
         return sky_function(s, d);
     sky_place(k, affine_vector(&k->to_map, d), &x, &y);
     if (!k->smooth)
@@ -69,7 +69,8 @@ HD rgb sky_radiance(const flat_scene *s, vec3 d)
 
 HD bool sky_is_light(const flat_scene *s)
 {
-    return s->environment && s->sky_count > 0 && s->sky->lights;
+    return scene_may(MAY_SKY) && s->environment && s->sky_count > 0 &&
+           s->sky->lights;
 }
 
 /* Solid angle of map space over that of the world, at map direction q that

@@ -10,16 +10,29 @@
 #include "core/physics/rng.h"
 #include "core/physics/walk.h"
 
+/* What is counted; `rejected` are samples that were not finite. */
+#define TRACK_COUNTERS(X)                                                     \
+    X(paths) X(rays) X(shadow_rays) X(collisions) X(lookups)                  \
+    X(majorant_exceeded) X(overflow) X(rejected)
+
+/* A GPU's threads count a launch each, in registers. */
+#ifdef __CUDACC__
+typedef uint32_t track_count;
+#else
+typedef uint64_t track_count;
+#endif
+
 typedef struct {
-    uint64_t paths, rays, shadow_rays, collisions, lookups;
-    uint64_t majorant_exceeded, overflow;
+#define X(name) track_count name;
+    TRACK_COUNTERS(X)
+#undef X
 } track_counters;
 
 /* Attenuation of all homogeneous media of the walk: it is constant. */
 HD rgb track_uniform(const flat_scene *s, const media_walk *w)
 {
     rgb sum = rgb_gray(0.0f);
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         if (m->uniform)
             sum = rgb_add(sum, rgb_scale(m->sigma_t, m->outside.density));
@@ -31,7 +44,7 @@ HD rgb track_uniform(const flat_scene *s, const media_walk *w)
 HD float track_majorant(const flat_scene *s, const media_walk *w)
 {
     rgb sum = rgb_gray(0.0f);
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         if (!m->uniform)
             sum = rgb_add(sum, rgb_scale(m->sigma_t,
@@ -44,7 +57,7 @@ HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
                      float t)
 {
     rgb sum = rgb_gray(0.0f);
-    for (int i = 0; i < w->count; i++) {
+    for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &s->media[w->part[i].medium];
         if (m->uniform || w->part[i].bound.density == 0.0f)
             continue;

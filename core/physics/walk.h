@@ -17,6 +17,23 @@ typedef struct {
     int32_t shape[MAX_CONTAINERS];
 } container_set;
 
+/* The bounds and places of these small lists: where they hold one at most,
+ * a GPU keeps them in registers. */
+HD int part_bound(int count)
+{
+    return scene_may(MAY_MANY) ? count : count > 0;
+}
+
+HD int part_place(int i)
+{
+    return scene_may(MAY_MANY) ? i : 0;
+}
+
+HD int container_count(const container_set *set)
+{
+    return part_bound(set->count);
+}
+
 /* One medium's lattice along the ray. */
 typedef struct {
     int32_t medium;
@@ -37,6 +54,11 @@ typedef struct {
     float t_max;
     uint32_t overflow;      /* media left out: more than MAX_ACTIVE        */
 } media_walk;
+
+HD int walk_parts(const media_walk *w)
+{
+    return part_bound(w->count);
+}
 
 /* Distance at which the axis leaves its current cell. */
 HD float lattice_plane(const lattice_walk *w, int axis)
@@ -126,6 +148,14 @@ HD void lattice_begin(const flat_scene *s, lattice_walk *w, int medium,
         lattice_outside(s, w, INFINITY);
 }
 
+/* Over the next plane of an axis; false: out of the lattice. */
+HD bool lattice_cross(lattice_walk *w, int axis, int32_t cells)
+{
+    w->cell[axis] += vec3_get(w->d, axis) > 0.0f ? 1 : -1;
+    w->next[axis] = lattice_plane(w, axis);
+    return w->cell[axis] >= 0 && w->cell[axis] < cells;
+}
+
 /* Goes on from the end of the current piece. */
 HD void lattice_step(const flat_scene *s, lattice_walk *w)
 {
@@ -138,15 +168,15 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
         lattice_outside(s, w, INFINITY);
         return;
     }
-    int axis = w->next[0] <= w->next[1] ? 0 : 1;
-    axis = w->next[axis] <= w->next[2] ? axis : 2;
-    w->cell[axis] += vec3_get(w->d, axis) > 0.0f ? 1 : -1;
-    if (w->cell[axis] < 0 ||
-        w->cell[axis] >= s->media[w->medium].cells[axis]) {
+    const int32_t *cells = s->media[w->medium].cells;
+    bool y = !(w->next[0] <= w->next[1]);
+    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
+    if (!(z ? lattice_cross(w, 2, cells[2])
+          : y ? lattice_cross(w, 1, cells[1])
+              : lattice_cross(w, 0, cells[0]))) {
         lattice_outside(s, w, INFINITY);
         return;
     }
-    w->next[axis] = lattice_plane(w, axis);
     lattice_load(s, w);
     w->t_end = hd_max(lattice_next(w), t);
 }
@@ -178,7 +208,7 @@ HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
 HD void walk_set_end(media_walk *w)
 {
     w->t_end = w->t_max;
-    for (int i = 0; i < w->count; i++)
+    for (int i = 0; i < walk_parts(w); i++)
         w->t_end = hd_min(w->t_end, w->part[i].t_end);
 }
 
@@ -193,8 +223,8 @@ HD void walk_add_interior(const flat_scene *s, media_walk *w, int interior,
             w->overflow++;
             continue;
         }
-        lattice_begin(s, &w->part[w->count], s->interior_media[in->first + i],
-                      o, d, w->t);
+        lattice_begin(s, &w->part[part_place(w->count)],
+                      s->interior_media[in->first + i], o, d, w->t);
         w->count++;
     }
 }
@@ -212,7 +242,7 @@ HD void walk_begin(const flat_scene *s, media_walk *w,
     w->t_max = t1;
     if (atmosphere)
         walk_add_interior(s, w, s->atmosphere, o, d);
-    for (int i = 0; i < set->count; i++)
+    for (int i = 0; i < container_count(set); i++)
         walk_add_interior(s, w, s->shapes[set->shape[i]].interior, o, d);
     walk_set_end(w);
 }
@@ -223,7 +253,7 @@ HD bool walk_next(const flat_scene *s, media_walk *w)
     if (!(w->t_end < w->t_max))
         return false;
     w->t = w->t_end;
-    for (int i = 0; i < w->count; i++)
+    for (int i = 0; i < walk_parts(w); i++)
         while (w->part[i].t_end <= w->t)
             lattice_step(s, &w->part[i]);
     walk_set_end(w);
@@ -232,7 +262,7 @@ HD bool walk_next(const flat_scene *s, media_walk *w)
 
 HD bool container_has(const container_set *set, int shape)
 {
-    for (int i = 0; i < set->count; i++)
+    for (int i = 0; i < container_count(set); i++)
         if (set->shape[i] == shape)
             return true;
     return false;
@@ -245,7 +275,7 @@ HD void container_enter(container_set *set, int shape)
     if (container_has(set, shape))
         return;
     if (set->count < MAX_CONTAINERS)
-        set->shape[set->count++] = shape;
+        set->shape[part_place(set->count++)] = shape;
     else
         set->lost++;
 }
@@ -263,17 +293,17 @@ HD bool container_is_unbounded(const flat_scene *s, int shape)
 HD void container_leave_bounded(const flat_scene *s, container_set *set)
 {
     int kept = 0;
-    for (int i = 0; i < set->count; i++)
+    for (int i = 0; i < container_count(set); i++)
         if (container_is_unbounded(s, set->shape[i]))
-            set->shape[kept++] = set->shape[i];
+            set->shape[part_place(kept++)] = set->shape[i];
     set->count = kept;
 }
 
 HD void container_leave(container_set *set, int shape)
 {
-    for (int i = 0; i < set->count; i++)
+    for (int i = 0; i < container_count(set); i++)
         if (set->shape[i] == shape) {
-            set->shape[i] = set->shape[--set->count];
+            set->shape[i] = set->shape[part_place(--set->count)];
             return;
         }
 }

@@ -51,8 +51,8 @@ for name in t1-cloud t1-fog t2-flame3 t2-campfire t2-explosion; do
     exits 0
     is_silent
     is "$(ppm_size $name.ppm)" '8 6'
-    [ "$(ppm_pixel $name.ppm 8 6 3 3)" != '0 0 0' ] ||
-        complain "$name is black in its middle"
+    [ "$(tail -c 144 $name.ppm | tr -d '\000' | wc -c)" -gt 0 ] ||
+        complain "$name is black"
 done
 
 end_cases

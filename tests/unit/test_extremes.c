@@ -232,7 +232,7 @@ static void extremes__lost_beyond_a_boundary(void **state)
     assert_non_null(f);
     const container_set inside = {1, 0, {0}};
     const vec3 out = vec3_make(0, 0, -1), o = vec3_make(0, 0, -1e-6f);
-    track_counters count = {0, 0, 0, 0, 0, 0, 0};
+    track_counters count = {0};
     path_state p;
     path_begin(&p, o, out, &inside, false, rng_make(1, 0, 0, 0));
     while (path_segment(&f->view, &p, &count))

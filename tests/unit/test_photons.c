@@ -89,7 +89,7 @@ static void follow(const flat_scene *s, uint64_t photon, double tally[SHELLS])
     float u = rng_float(&random);
     vec3 d = warp_sphere(u, rng_float(&random));
     path_state p;
-    track_counters count = {0, 0, 0, 0, 0, 0, 0};
+    track_counters count = {0};
     path_event at = {0.0f, 0, 0.0f};
     int event;
     path_begin(&p, vec3_make(0.0f, 0.0f, 0.0f), d, &nowhere, false, random);

@@ -130,6 +130,7 @@ static uint64_t hash_scene(const brume_scene *scene,
     mix(&hash, &result->accuracy, sizeof result->accuracy);
     mix(&hash, &result->time_limit, sizeof result->time_limit);
     mix(&hash, &result->has_integrator, sizeof result->has_integrator);
+    mix(&hash, &result->photons, sizeof result->photons);
     return hash;
 }
 

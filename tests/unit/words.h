@@ -232,6 +232,7 @@ static const struct words_scene words_scenes[] = {
                      "sphere { 0, S(1.5).x }"),
     WORDS_IN(GLOBAL_SETTINGS, "global_settings { % }"),
     WORDS_IN(TRANSPORT, "global_settings { transport { % } }"),
+    WORDS_IN(VOLUME_PHOTONS, "global_settings { @volume_photons { % }@ }"),
     WORDS_LACK(PHOTONS, "POV-Ray's photons",
                "global_settings { @photons { % }@ }"),
     WORDS_LACK(RADIOSITY, "radiosity", "global_settings { @radiosity { % }@ }"),
@@ -575,6 +576,7 @@ static const struct words_use words_uses[] = {
                WORDS_GLASS, "fading in interiors"),
     WORDS_USE(FIRE, "reference", "reference 1500", NULL),
 
+    WORDS_USE(VOLUME_PHOTONS, "preset", "preset paper", NULL),
     WORDS_USE(CAMERA, "perspective", "orthographic perspective",
               "orthographic"),
     WORDS_USE(CAMERA, "cylinder", "cylinder 1", NULL),

@@ -1,0 +1,37 @@
+/* may.h - what scenes may hold, as far as code is made for it.
+ *
+ * A kernel for scenes that hold less has no code for the rest, and keeps in
+ * registers what would else be arrays in memory: it is the same physics, and
+ * gives the same bits. SCENE_MAY is a sum of MAY_*; the CPU's code is made for
+ * all. */
+#ifndef CORE_PHYSICS_MAY_H
+#define CORE_PHYSICS_MAY_H
+#include "core/physics/hd.h"
+
+enum {
+    MAY_SOLIDS = 1,         /* primitives of solids.h, isosurfaces         */
+    MAY_COMPOSITES = 2,
+    MAY_FUNCTIONS = 4,      /* pigments and skies that are byte code       */
+    MAY_MESHES = 8,
+    MAY_SURFACES = 16,      /* that are seen, not only bound media         */
+    MAY_EMISSION = 32,      /* of media                                    */
+    MAY_SKY = 64,           /* a picture around the scene                  */
+    MAY_LAMPS = 128,        /* local lights (equiangular.h)                */
+    MAY_MANY = 256,         /* several media or containers at one place, or
+                               grids of one medium on different lattices   */
+    MAY_CLEAR = 512,        /* media that do not scatter                   */
+    MAY_FIELD = 1024,       /* a field of photons' light, read by lines    */
+    MAY_KDTREE = 2048,
+    MAY_ALL = 4095
+};
+
+#ifndef SCENE_MAY
+#define SCENE_MAY MAY_ALL
+#endif
+
+HD bool scene_may(int what)
+{
+    return (SCENE_MAY & what) != 0;
+}
+
+#endif
