@@ -9,21 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/df3.h"
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+#include "tests/unit/temp_file.h"
 
 static void put(FILE *f, uint32_t value, int bytes)
 {

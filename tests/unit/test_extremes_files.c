@@ -9,6 +9,7 @@
 #include "lib/df3.h"
 #include "lib/nvdb_file.h"
 #include "lib/ply.h"
+#include "tests/unit/temp_file.h"
 
 enum kind { DF3, VDB, NVDB, PARTICLES, KINDS };
 
@@ -17,29 +18,6 @@ enum kind { DF3, VDB, NVDB, PARTICLES, KINDS };
 enum content { VALUE, EMPTY, VOXEL, FAULTY };
 
 static const char *const kind_name[] = {"df3", "vdb", "nvdb", "particles"};
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
-
-static void write_bytes(const void *bytes, size_t size)
-{
-    FILE *f = fopen(path, "wb");
-    assert_non_null(f);
-    assert_int_equal(fwrite(bytes, 1, size, f), size);
-    fclose(f);
-}
-
 static float sample_of(enum content content, float value, int i)
 {
     static const float faults[] = {NAN, INFINITY, -INFINITY, -3, 2};

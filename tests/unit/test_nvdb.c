@@ -9,25 +9,11 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/nvdb_file.h"
+#include "tests/unit/temp_file.h"
 
 /* The files are other programs', by oracle/nvdb.py; those of kinds.vdb and
  * tiles.vdb hold what OpenVDB reads of these. */
 #define DATA(name) "tests/data/" name
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
 
 static struct grid *load(const char *file, const char *name)
 {

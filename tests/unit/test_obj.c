@@ -9,23 +9,9 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/obj.h"
+#include "tests/unit/temp_file.h"
 
 #define SPOT "../shared/data/spot.obj"
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
 
 static void test_obj__faces_of_all_forms(void **state)
 {

@@ -9,29 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/ply.h"
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
-
-static void write_bytes(const void *bytes, size_t size)
-{
-    FILE *f = fopen(path, "wb");
-    assert_non_null(f);
-    assert_int_equal(fwrite(bytes, 1, size, f), size);
-    fclose(f);
-}
+#include "tests/unit/temp_file.h"
 
 static struct mesh *load_text(const char *text)
 {

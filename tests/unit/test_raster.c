@@ -10,21 +10,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/raster.h"
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+#include "tests/unit/temp_file.h"
 
 static struct raster *load(const char *format, const void *bytes, size_t size,
                            struct brume_error *err)

@@ -9,23 +9,9 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib/vdb.h"
+#include "tests/unit/temp_file.h"
 
 #define CAMPFIRE "../shared/data/campfire/campfire_01.vdb"
-
-static char path[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    int fd = mkstemp(path);
-    return fd < 0 ? -1 : close(fd);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
 
 static struct grid *load(const char *file, const char *name)
 {
