@@ -37,6 +37,19 @@ struct backend {
     void (*close)(void *state);
 };
 
+/* What the frame asks of every pixel. */
+static inline pixel_job backend_pixels(const struct backend_frame *frame)
+{
+    const struct brume_options *o = frame->options;
+    pixel_job job;
+    job.width = o->width;
+    job.height = o->height;
+    job.seed = o->seed;
+    job.frame = o->frame;
+    job.path = frame->stages->path || frame->stages->single;
+    return job;
+}
+
 extern const struct backend backend_cpu;
 #ifdef BRUME_CUDA
 extern const struct backend backend_cuda;

@@ -28,14 +28,10 @@ static void *cpu_open(const struct backend_frame *frame,
     struct cpu_state *s = memory_new(1, sizeof *s, err);
     if (!s)
         return NULL;
-    const struct brume_options *o = frame->options;
+    int threads = frame->options->threads;
     s->frame = *frame;
-    s->threads = o->threads > 0 ? o->threads : thread_processors();
-    s->job.width = o->width;
-    s->job.height = o->height;
-    s->job.seed = o->seed;
-    s->job.frame = o->frame;
-    s->job.path = frame->stages->path || frame->stages->single;
+    s->threads = threads > 0 ? threads : thread_processors();
+    s->job = backend_pixels(frame);
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
     if (!s->count) {
         cpu_close(s);

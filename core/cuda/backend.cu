@@ -98,13 +98,8 @@ const sample_stage *choose_kernel(int needs)
 
 void describe_job(sample_job *job, const backend_frame *frame)
 {
-    const brume_options *o = frame->options;
     const film *f = frame->film;
-    job->pixels.width = o->width;
-    job->pixels.height = o->height;
-    job->pixels.seed = o->seed;
-    job->pixels.frame = o->frame;
-    job->pixels.path = frame->stages->path || frame->stages->single;
+    job->pixels = backend_pixels(frame);
     job->x0 = f->x0;
     job->y0 = f->y0;
     job->x1 = f->x1;
