@@ -7,7 +7,7 @@
 
 /* What a backend works on for one frame. */
 struct backend_frame {
-    const struct flat *flat;
+    struct flat *flat;          /* its field is the backend's to fill      */
     const struct brume_options *options;
     const struct stages *stages;
     struct film *film;
@@ -24,12 +24,12 @@ struct backend {
     /* Brings the scene to where it will be read; NULL with err set. */
     void *(*open)(const struct backend_frame *frame, struct brume_error *err);
     /* Traces all photons of the job and adds their flights to the sums of the
-     * cells of the field; NULL where it cannot. */
-    bool (*trace)(void *state, const photon_job *job, int64_t *sum,
-                  struct brume_stats *stats, struct brume_error *err);
-    /* Adds what comes straight from lights to the cells of the field; false
-     * if it was stopped. */
-    bool (*single)(void *state, float *cells);
+     * cells of the field, which are zero after open. */
+    bool (*trace)(void *state, const photon_job *job, struct brume_stats *stats,
+                  struct brume_error *err);
+    /* Makes the field of the sums, `unit` being the power of the mean photon,
+     * with what comes straight from lights where it is to hold that. */
+    bool (*gather)(void *state, double unit, struct brume_error *err);
     /* Adds samples [film->samples, film->samples + count) to every pixel. On
      * failure or stop the film is not to be used any more. */
     bool (*sample)(void *state, uint32_t count, struct brume_stats *stats,

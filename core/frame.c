@@ -226,7 +226,8 @@ static bool check_memory(const struct frame_job *j, const struct flat *flat,
 
 /* Emits, traces and gathers: fills the field of scattered light. */
 static bool run_photons(struct frame_job *j, const struct backend *b,
-                        void *state, struct flat *flat, struct brume_error *err)
+                        void *state, const struct flat *flat,
+                        struct brume_error *err)
 {
     struct brume_photon_stats *stats = &j->out->stats.photons;
     struct photons photons;
@@ -235,24 +236,19 @@ static bool run_photons(struct frame_job *j, const struct backend *b,
                           "backend %s has no integrator photon yet", b->name);
     if (!photons_plan(flat, j->options, &photons, err))
         return false;
-    int64_t *sum = memory_new(flat->radiance_count, sizeof *sum, err);
-    bool good = sum != NULL;
     double start = j->sampling = timer_seconds();
     j->photons = photons.job.count;
-    if (good && photons.job.sources > 0)
-        good = b->trace(state, &photons.job, sum, &j->out->stats, err);
+    bool good = photons.job.sources == 0 ||
+                b->trace(state, &photons.job, &j->out->stats, err);
     if (good && j->stopped)
         good = brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
-    if (good)
-        radiance_resolve(flat, sum,
-                         photons.job.power / (double)photons.job.count);
-    if (good && flat->view.field.single)
-        good = b->single(state, flat->radiance);
+    good = good &&
+           b->gather(state, photons.job.power / (double)photons.job.count, err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
-    stats->bytes = flat->radiance_count * (sizeof *sum + sizeof(float));
+    stats->bytes = radiance_sum_bytes(flat) +
+                   flat->radiance_count * sizeof(float);
     stats->seconds = timer_seconds() - start;
     j->photons = 0;
-    free(sum);
     photons_release(&photons);
     return good;
 }

@@ -17,8 +17,10 @@ static bool cpu_available(char *why, size_t size)
 static void cpu_close(void *state)
 {
     struct cpu_state *s = state;
-    if (s)
+    if (s) {
         free(s->count);
+        free(s->sum);
+    }
     free(s);
 }
 
@@ -33,11 +35,13 @@ static void *cpu_open(const struct backend_frame *frame,
     s->threads = threads > 0 ? threads : thread_processors();
     s->job = backend_pixels(frame);
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
-    if (!s->count) {
-        cpu_close(s);
-        return NULL;
-    }
-    return s;
+    const struct flat *flat = frame->flat;
+    if (s->count && frame->stages->photons)
+        s->sum = memory_new(flat->radiance_count, sizeof *s->sum, err);
+    if (s->count && (s->sum || !frame->stages->photons))
+        return s;
+    cpu_close(s);
+    return NULL;
 }
 
 static void sample_row(void *context, size_t index, int thread)
@@ -90,5 +94,5 @@ static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,
 
 const struct backend backend_cpu = {
     "cpu",      cpu_available, cpu_open,  cpu_trace,
-    cpu_single, cpu_sample,    cpu_close,
+    cpu_gather, cpu_sample,    cpu_close,
 };

@@ -9,17 +9,18 @@ struct cpu_state {
     pixel_job job;
     int threads;
     track_counters *count;      /* of each thread                          */
+    int64_t *sum;               /* of the field's cells, or NULL           */
     uint32_t samples;           /* of this call                            */
     atomic_size_t rows_done;
     atomic_bool stop;
 };
 
 /* trace.c */
-bool cpu_trace(void *state, const photon_job *job, int64_t *sum,
-               struct brume_stats *stats, struct brume_error *err);
+bool cpu_trace(void *state, const photon_job *job, struct brume_stats *stats,
+               struct brume_error *err);
 
-/* single.c */
-bool cpu_single(void *state, float *cells);
+/* gather.c */
+bool cpu_gather(void *state, double unit, struct brume_error *err);
 
 /* backend.c */
 void cpu_add_track(const track_counters *c, struct brume_stats *out);

@@ -12,7 +12,6 @@
 struct trace {
     struct cpu_state *state;
     const photon_job *job;
-    int64_t *sum;
     photon_counters *batch;
     uint64_t size; /* photons of a batch                      */
     size_t batches;
@@ -24,7 +23,7 @@ static void trace_batch(void *context, size_t index, int thread)
     struct trace *t = context;
     struct cpu_state *s = t->state;
     uint64_t first = index * t->size, left = t->job->count - first;
-    t->batch[index].tally.sum = t->sum;
+    t->batch[index].tally.sum = s->sum;
     photon_run(&s->frame.flat->view, t->job, first,
                left < t->size ? left : t->size, &t->batch[index]);
     size_t done = atomic_fetch_add(&t->done, 1) + 1;
@@ -56,11 +55,11 @@ static void add_batch(const photon_counters *c, struct brume_stats *out)
     add_books(&c->books, &out->photons);
 }
 
-bool cpu_trace(void *state, const photon_job *job, int64_t *sum,
-               struct brume_stats *stats, struct brume_error *err)
+bool cpu_trace(void *state, const photon_job *job, struct brume_stats *stats,
+               struct brume_error *err)
 {
     struct cpu_state *s = state;
-    struct trace t = {.state = s, .job = job, .sum = sum, .size = BATCH};
+    struct trace t = {.state = s, .job = job, .size = BATCH};
     if (job->count / MOST_BATCHES >= BATCH)
         t.size = job->count / MOST_BATCHES + 1;
     t.batches = (size_t)((job->count + t.size - 1) / t.size);

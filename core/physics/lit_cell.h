@@ -4,6 +4,9 @@
 #include "core/physics/inside.h"
 #include "core/physics/path.h"
 
+/* The streams of cells, apart from those of photons and of pixels' samples. */
+#define LIT_CELL_PASS 0xfffffffcu
+
 /* What comes through of light over `distance` from o along wi: surfaces by
  * their transparency, media exactly. */
 HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
@@ -72,6 +75,26 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
     p.count = count;
     for (uint64_t i = 0; i < s->lights_count; i++)
         lit_cell_light(s, (int)i, &p, x, out);
+}
+
+/* Cell i of a brick that is there, into its numbers. */
+HD void lit_cell_run(const flat_scene *s, uint64_t seed, uint32_t frame,
+                     uint64_t brick, int i, float *cells,
+                     track_counters *count)
+{
+    const radiance_lattice *f = &s->field;
+    uint64_t row = brick / (uint64_t)f->bricks[0];
+    uint64_t at[3] = {brick % (uint64_t)f->bricks[0],
+                      row % (uint64_t)f->bricks[1],
+                      row / (uint64_t)f->bricks[1]};
+    uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
+    int place[3] = {8 * (int)at[0] + (i & 7), 8 * (int)at[1] + (i >> 3 & 7),
+                    8 * (int)at[2] + (i >> 6)};
+    vec3 x = vec3_make(f->origin[0] + ((float)place[0] + 0.5f) * f->side,
+                       f->origin[1] + ((float)place[1] + 0.5f) * f->side,
+                       f->origin[2] + ((float)place[2] + 0.5f) * f->side);
+    lit_cell(s, x, rng_make(seed, frame, LIT_CELL_PASS, cell),
+             cells + cell * (uint64_t)f->numbers, count);
 }
 
 #endif

@@ -4,32 +4,6 @@
 #define CORE_PHYSICS_PHOTON_H
 #include "core/physics/photon_birth.h"
 
-/* The source of a photon: they take turns by their shares. */
-HD int photon_source_of(const photon_job *job, uint64_t photon)
-{
-    double u = ((double)photon + (double)job->shift_share) /
-               (double)job->count;
-    int i = 0;
-    while (i < job->sources - 1 && u >= job->source[i].cumulative)
-        i++;
-    return i;
-}
-
-HD void photon_begin(const flat_scene *s, const photon_job *job,
-                     uint64_t photon, photon_state *p, photon_counters *c)
-{
-    float u[PHOTON_DIMENSIONS];
-    const photon_source *source = &job->source[photon_source_of(job, photon)];
-    photon_place(job, photon, u);
-    photon_birth(s, source, u,
-                 rng_make(job->seed, job->frame, PHOTON_PASS, photon), p,
-                 &c->track);
-    float scale = (float)(1.0 / (source->share * job->power));
-    p->path.beta = rgb_scale(p->path.beta, scale);
-    c->photons++;
-    c->books.emitted += photon_power(p);
-}
-
 /* ---- flights ----------------------------------------------------------- */
 
 /* Lays the flight up to t, with that power. */
@@ -61,36 +35,82 @@ HD void photon_fly(const flat_scene *s, photon_state *p, photon_counters *c,
     path_fly(&p->path, majorant, step);
 }
 
-/* Delta tracking over the walk, as path_track. */
-HD int photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
-                    media_walk *w, path_event *out)
+/* A flight between two events or surfaces, in steps: on a GPU the threads of a
+ * warp take them side by side, however many each flight has. */
+typedef struct {
+    bvh_ray ray;
+    ray_hit hit;            /* the next surface                            */
+    media_walk walk;
+    rgb majorant;           /* of the current piece                        */
+    float t, tau;           /* how far it is; depth left to the next
+                               tentative collision                         */
+    double power;           /* at its start, as the books tell it          */
+    int32_t event;          /* PATH_*: how it ends                         */
+    path_event at;
+} photon_flight;
+
+/* False: nothing is between it and its end. */
+HD bool photon_take_off(const flat_scene *s, photon_state *p,
+                        photon_counters *c, photon_flight *f)
 {
     path_state *a = &p->path;
-    float tau = rng_optical_depth(&a->random);
-    do {
-        rgb majorant = path_majorant(s, w, false);
-        float driver = rgb_get(majorant, a->driver), t = w->t, left;
-        while (left = driver * (w->t_end - t), tau < left) {
-            photon_fly(s, p, c, majorant, t, tau / driver);
-            t += tau / driver;
-            tau = rng_optical_depth(&a->random);
-            path_point at;
-            int which = 0;
-            path_point_at(s, a, w, t, majorant, &at);
-            rgb beta = a->beta, r_u = a->r_u;
-            int event = path_collide(a, w, &at, majorant, &which);
-            if (event != PATH_THROUGH || !photon_gray(at.all_t))
-                photon_lay(s, p, c, t, beta, r_u);
-            out->t = t;
-            if (event == PATH_SCATTERED)
-                out->medium = w->part[which].medium;
-            if (event != PATH_THROUGH)
-                return event;
-        }
-        photon_fly(s, p, c, majorant, t, w->t_end - t);
-        tau -= left;
-    } while (walk_next(s, w));
-    return PATH_THROUGH;
+    f->ray = bvh_ray_make(a->o, a->d);
+    f->hit = bvh_nearest(s, &f->ray, &a->after, s->far);
+    f->event = PATH_THROUGH;
+    f->power = photon_power(p);
+    c->track.rays++;
+    if (f->hit.shape < 0)
+        container_leave_bounded(s, &a->inside);
+    p->laid = a->after.t;
+    walk_begin(s, &f->walk, &a->inside, true, a->o, a->d, a->after.t,
+               f->hit.t);
+    c->track.overflow += f->walk.overflow;
+    if (f->walk.count == 0)
+        return false;
+    f->tau = rng_optical_depth(&a->random);
+    f->majorant = path_majorant(s, &f->walk, false);
+    f->t = f->walk.t;
+    return true;
+}
+
+/* At a tentative collision; false: it is a real one. */
+HD bool photon_goes_on(const flat_scene *s, photon_state *p,
+                       photon_counters *c, photon_flight *f)
+{
+    path_state *a = &p->path;
+    path_point at;
+    int which = 0;
+    path_point_at(s, a, &f->walk, f->t, f->majorant, &at);
+    rgb beta = a->beta, r_u = a->r_u;
+    f->event = path_collide(a, &f->walk, &at, f->majorant, &which);
+    if (f->event != PATH_THROUGH || !photon_gray(at.all_t))
+        photon_lay(s, p, c, f->t, beta, r_u);
+    f->at.t = f->t;
+    if (f->event == PATH_SCATTERED)
+        f->at.medium = f->walk.part[part_place(which)].medium;
+    return f->event == PATH_THROUGH;
+}
+
+/* Delta tracking as in path_track: to the next tentative collision or the end
+ * of a piece. False: the flight has ended. */
+HD bool photon_step(const flat_scene *s, photon_state *p, photon_counters *c,
+                    photon_flight *f)
+{
+    float driver = rgb_get(f->majorant, p->path.driver);
+    float left = driver * (f->walk.t_end - f->t);
+    if (f->tau < left) {
+        photon_fly(s, p, c, f->majorant, f->t, f->tau / driver);
+        f->t += f->tau / driver;
+        f->tau = rng_optical_depth(&p->path.random);
+        return photon_goes_on(s, p, c, f);
+    }
+    photon_fly(s, p, c, f->majorant, f->t, f->walk.t_end - f->t);
+    f->tau -= left;
+    if (!walk_next(s, &f->walk))
+        return false;
+    f->majorant = path_majorant(s, &f->walk, false);
+    f->t = f->walk.t;
+    return true;
 }
 
 /* ---- events ------------------------------------------------------------ */
@@ -266,41 +286,60 @@ HD bool photon_surface(const flat_scene *s, photon_state *p,
     return !rgb_is_black(p->path.beta);
 }
 
-/* One flight, to the next event or surface. False: the photon has ended. */
-HD bool photon_segment(const flat_scene *s, photon_state *p,
-                       photon_counters *c)
+/* What comes after a flight. False: the photon has ended. */
+HD bool photon_land(const flat_scene *s, photon_state *p, photon_counters *c,
+                    const photon_flight *f)
 {
-    path_state *a = &p->path;
-    bvh_ray r = bvh_ray_make(a->o, a->d);
-    ray_hit h = bvh_nearest(s, &r, &a->after, s->far);
-    path_event at;
-    media_walk w;
-    int event = PATH_THROUGH;
-    c->track.rays++;
-    if (h.shape < 0)
-        container_leave_bounded(s, &a->inside);
-    p->laid = a->after.t;
-    walk_begin(s, &w, &a->inside, true, a->o, a->d, a->after.t, h.t);
-    c->track.overflow += w.overflow;
-    double before = photon_power(p);
-    if (w.count > 0)
-        event = photon_track(s, p, c, &w, &at);
-    c->books.media += before - photon_power(p);
-    if (event == PATH_THROUGH)
-        photon_lay(s, p, c, h.t, a->beta, a->r_u);
+    c->books.media += f->power - photon_power(p);
+    if (f->event == PATH_THROUGH)
+        photon_lay(s, p, c, f->hit.t, p->path.beta, p->path.r_u);
     if (++p->events > PHOTON_EVENTS) {
         photon_end(p, &c->books.dropped);
         return false;
     }
-    if (event == PATH_SCATTERED)
-        return photon_scatter(s, p, c, &at);
-    if (event == PATH_ENDED)
+    if (f->event == PATH_SCATTERED)
+        return photon_scatter(s, p, c, &f->at);
+    if (f->event == PATH_ENDED)
         photon_end(p, &c->books.media);
-    else if (h.shape >= 0)
-        return photon_surface(s, p, c, &r, &h);
+    else if (f->hit.shape >= 0)
+        return photon_surface(s, p, c, &f->ray, &f->hit);
     else
         photon_end(p, &c->books.escaped);
     return false;
+}
+
+/* ---- the whole of it --------------------------------------------------- */
+
+/* The source of a photon: they take turns by their shares. */
+HD int photon_source_of(const photon_job *job, uint64_t photon)
+{
+    double u = ((double)photon + (double)job->shift_share) /
+               (double)job->count;
+    int i = 0;
+    while (i < job->sources - 1 && u >= job->source[i].cumulative)
+        i++;
+    return i;
+}
+
+/* The birth; false: it has no power. */
+HD bool photon_begin(const flat_scene *s, const photon_job *job,
+                     uint64_t photon, photon_state *p, photon_counters *c)
+{
+    float u[PHOTON_DIMENSIONS];
+    const photon_source *source = &job->source[photon_source_of(job, photon)];
+    photon_place(job, photon, u);
+    photon_birth(s, source, u,
+                 rng_make(job->seed, job->frame, PHOTON_PASS, photon), p,
+                 &c->track);
+    float scale = (float)(1.0 / (source->share * job->power));
+    p->path.beta = rgb_scale(p->path.beta, scale);
+    c->photons++;
+    c->books.emitted += photon_power(p);
+    if (rgb_is_black(p->path.beta))
+        return false;
+    if (p->emission && s->field.births)
+        photon_store(s, p, c, p->path.o, p->path.d, PHASE_ISOTROPIC, 0.0f);
+    return true;
 }
 
 /* The whole of photons [first, first + n). */
@@ -309,13 +348,14 @@ HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
 {
     for (uint64_t i = first; i < first + n; i++) {
         photon_state p;
-        photon_begin(s, job, i, &p, c);
-        if (rgb_is_black(p.path.beta))
-            continue;
-        if (p.emission && s->field.births)
-            photon_store(s, &p, c, p.path.o, p.path.d, PHASE_ISOTROPIC, 0.0f);
-        while (photon_segment(s, &p, c))
-            ;
+        photon_flight f;
+        bool alive = photon_begin(s, job, i, &p, c);
+        while (alive) {
+            bool flies = photon_take_off(s, &p, c, &f);
+            while (flies)
+                flies = photon_step(s, &p, c, &f);
+            alive = photon_land(s, &p, c, &f);
+        }
     }
 }
 

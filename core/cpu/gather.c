@@ -1,0 +1,32 @@
+/* The gather stage: from sums to the field, and light straight from the lights
+ * into it, a brick at a time. */
+#include "core/cpu/cpu.h"
+#include "core/physics/lit_cell.h"
+#include "core/radiance.h"
+#include "lib/thread.h"
+
+static void light_brick(void *context, size_t index, int thread)
+{
+    (void)thread;
+    const struct cpu_state *s = context;
+    const flat_scene *v = &s->frame.flat->view;
+    track_counters count = {0};
+    if (v->radiance_slots[index] < 0)
+        return;
+    for (int i = 0; i < 512; i++)
+        lit_cell_run(v, s->job.seed, s->job.frame, index, i,
+                     s->frame.flat->radiance, &count);
+}
+
+bool cpu_gather(void *state, double unit, struct brume_error *err)
+{
+    struct cpu_state *s = state;
+    struct flat *flat = s->frame.flat;
+    radiance_resolve(flat, s->sum, unit);
+    if (!flat->view.field.single)
+        return true;
+    atomic_store(&s->stop, false);
+    return parallel_for(s->threads, (size_t)flat->radiance_slots_count,
+                        light_brick, s, &s->stop) ||
+           brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
+}
