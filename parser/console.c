@@ -157,14 +157,30 @@ void console_progress(struct console *console,
     progress_update(&console->progress, &report);
 }
 
-/* Told on a terminal, or when +V asks for it. */
-void console_finished(struct console *console, const struct reel_record *record)
+/* Where a line about a frame goes: to the terminal, or when +V asks for it. */
+static int line_targets(struct console *console, FILE *to[3])
 {
     const struct options *o = console->options;
     bool wanted = o->has_verbose ? o->verbose : console->terminal;
-    FILE *to[3];
-    int count = targets(console, OPTIONS_STATISTICS, to);
+    int count = targets(console, OPTIONS_STATISTICS, to), kept = 0;
     for (int i = 0; i < count; i++)
         if (to[i] != console->to || wanted)
-            stats_line(record, to[i]);
+            to[kept++] = to[i];
+    return kept;
+}
+
+void console_finished(struct console *console, const struct reel_record *record)
+{
+    FILE *to[3];
+    int count = line_targets(console, to);
+    for (int i = 0; i < count; i++)
+        stats_line(record, to[i]);
+}
+
+void console_skipped(struct console *console, const char *picture)
+{
+    FILE *to[3];
+    int count = line_targets(console, to);
+    for (int i = 0; i < count; i++)
+        fprintf(to[i], "%s: left out, it is finished\n", picture);
 }

@@ -37,5 +37,6 @@ void console_progress(struct console *console,
                       const struct brume_progress *progress);
 void console_finished(struct console *console,
                       const struct reel_record *record);
+void console_skipped(struct console *console, const char *picture);
 
 #endif

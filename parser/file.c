@@ -1,4 +1,5 @@
 /* file.c - where the files that a scene names are. */
+#include "parser/origins.h"
 #include "parser/parser.h"
 #include "parser/permit.h"
 #include "parser/source.h"
@@ -67,9 +68,13 @@ static void try_path(struct search *search, const char *folder,
         search->found = path;
     } else if (!is_regular(path)) {
         note_tried(search, path);
+        origins_miss(search->parser->in->origins, path);
     } else if (search->purpose == PARSER_DATA ||
                permit_reads(search->parser, path)) {
         search->found = path;
+        if (!permit_wrote(search->parser, path)) {
+            origins_add(search->parser->in->origins, path);
+        }
     } else if (!search->denied) {
         search->denied = path;
     }

@@ -46,6 +46,16 @@ void frames_init(struct frames *frames, const struct options *options)
     frames->digits = digits_of(final);
 }
 
+void frames_shard(struct frames *frames, const struct shard *shard)
+{
+    int count = (frames->last - frames->first) / frames->step + 1;
+    int start = shard_start(shard, count, shard->index);
+    int end = shard_start(shard, count, shard->index + 1);
+    frames->none = start >= end;
+    frames->last = frames->first + (end - 1) * frames->step;
+    frames->first += start * frames->step;
+}
+
 void frames_ambient(const struct frames *frames, const struct options *options,
                     int number, struct parse_ambient *ambient)
 {

@@ -13,9 +13,13 @@ struct frames {
     int first, last, step;      /* numbers of the frames to render         */
     int initial, final;         /* of the whole film                       */
     int digits;                 /* a number in a file's name has, or more  */
+    bool none;                  /* this part of the film has no frame      */
 };
 
 void frames_init(struct frames *frames, const struct options *options);
+
+/* Leaves the frames of one part of the film; a still is all of its last. */
+void frames_shard(struct frames *frames, const struct shard *shard);
 
 /* What a scene sees in the frame of that number. */
 void frames_ambient(const struct frames *frames, const struct options *options,

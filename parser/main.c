@@ -72,6 +72,11 @@ static void on_finished(void *user, const struct reel_record *record)
     console_finished(&((struct run *)user)->console, record);
 }
 
+static void on_skipped(void *user, const char *picture)
+{
+    console_skipped(&((struct run *)user)->console, picture);
+}
+
 static bool on_stopped(void *user)
 {
     (void)user;
@@ -123,6 +128,7 @@ static enum brume_code act(struct run *run)
         .measured = on_measured,
         .progress = on_progress,
         .finished = on_finished,
+        .skipped = on_skipped,
         .stopped = on_stopped,
         .in = stdin,
         .out = stdout,

@@ -104,11 +104,16 @@ static bool is_special(const char *path)
            !S_ISDIR(status.st_mode);
 }
 
+bool naming_is_stream(const struct options *options)
+{
+    return is_standard_output(options) || is_special(options->output);
+}
+
 const char *naming_picture(const struct options *options,
                            const struct frames *frames, int number,
                            struct arena *arena)
 {
-    if (is_standard_output(options) || is_special(options->output))
+    if (naming_is_stream(options))
         return options->output;
     const char *extension = extensions[naming_format(options)];
     const char *stem = names_no_file(options->output)

@@ -21,6 +21,9 @@ const char *naming_picture(const struct options *options,
 const char *naming_beside(const struct options *options, const char *end,
                           struct arena *arena);
 
+/* Whether pictures go to standard output, a device or a pipe. */
+bool naming_is_stream(const struct options *options);
+
 /* The folder of the pictures, "." for the working one; NULL: no memory. */
 const char *naming_folder(const struct options *options, struct arena *arena);
 

@@ -79,15 +79,15 @@ bool setting_error(const struct setting *setting, const char *format, ...)
 bool setting_warn(const struct setting *setting, const char *format, ...)
     BRUME_PRINTF(2, 3);
 
-/* The handlers. A `flag` takes no value as a switch and on or off in an INI
- * file; a `flag_number` may have one as a switch. */
+/* The handlers. A `flag` takes no value as a switch or a long option and on or
+ * off in an INI file; a `flag_number` may have one as a switch. */
 option_set set_flag, set_flag_number, set_display, set_dither;
 option_set set_integer, set_number, set_unsigned, set_bytes;
 option_set set_text, set_folder, set_word, set_known_word;
 option_set set_input, set_output_file, set_file_type, set_declare, set_clock;
 option_set set_quality, set_file_gamma, set_stream, set_console,
            set_stream_file;
-option_set set_action, set_integrator, set_transport;
+option_set set_action, set_integrator, set_transport, set_shard;
 option_set set_missing, set_missing_flag, set_shell;
 
 /* on, true, yes, 1 and their opposites; case does not matter. */

@@ -68,9 +68,10 @@ static bool read_truth(struct setting *s, bool *truth)
 
 bool set_flag(struct setting *s)
 {
-    bool flag = s->sign == '+';
-    if (!is_switch(s) && !read_truth(s, &flag))
+    bool flag = s->sign == '+' || !s->value;
+    if (!is_switch(s) && s->value && !read_truth(s, &flag))
         return false;
+    flag = flag && s->sign != '-';
     bool *to = member(s);
     if (to)
         *to = flag;
@@ -436,6 +437,13 @@ bool set_stream_file(struct setting *s)
         return true;
     }
     return (*file = copy_value(s, s->value));
+}
+
+bool set_shard(struct setting *s)
+{
+    return shard_read(s->value, &s->options->shard) ||
+           setting_error(s, "'%s' is neither part I of N, as 2/5, nor 'slurm'",
+                         s->value);
 }
 
 bool set_missing(struct setting *s)

@@ -204,6 +204,10 @@ const struct option option_table[] = {
     { .plus = "STP", .ini = "Frame_Step", .value = "n", .set = set_integer,
       .at = AT(frame_step), .low = 1, .high = MAX_FRAME, .initial = 1,
       .help = "render every Nth frame" },
+    { .plus = "C", .ini = "Continue_Trace", .name = "resume", .set = set_flag,
+      .at = AT(resume), .help = "leave out pictures that are finished" },
+    { .name = "shard", .value = "i/n", .set = set_shard, .at = OPTION_NOWHERE,
+      .help = "part I of N of the frames; or: slurm" },
 
     HEADING("Rendering"),
     { .name = "backend", .value = "name", .set = set_word, .at = AT(backend),
@@ -350,8 +354,6 @@ const struct option option_table[] = {
     SHELL("Fatal_Error"),
 
     HEADING("Known, not supported yet"),
-    MISSING("C", "Continue_Trace", "resume", NULL, set_missing_flag,
-            "take up a killed run"),
     MISSING("GI", "Create_Ini", NULL, "[file]", set_missing_flag, NULL),
     MISSING("UF", "Field_Render", NULL, NULL, set_missing_flag, NULL),
     MISSING("UO", "Odd_Field", NULL, NULL, set_missing_flag, NULL),
@@ -359,8 +361,6 @@ const struct option option_table[] = {
     MISSING("RF", "Radiosity_File_Name", NULL, "file", set_missing, NULL),
     MISSING("RFI", "Radiosity_From_File", NULL, NULL, set_missing_flag, NULL),
     MISSING("RFO", "Radiosity_To_File", NULL, NULL, set_missing_flag, NULL),
-    MISSING(NULL, NULL, "shard", "i/n", set_missing,
-            "render part of the work"),
     MISSING(NULL, NULL, "preview", NULL, set_missing,
             "show the picture as it comes"),
 };

@@ -14,6 +14,7 @@
 #include "lib/arena.h"
 #include "parser/diag.h"
 #include "parser/parse.h"
+#include "parser/shard.h"
 
 enum options_action {
     OPTIONS_RENDER, OPTIONS_CHECK, OPTIONS_CHECK_JSON,
@@ -73,6 +74,8 @@ struct options {
     /* A fraction of final_frame if below 1; below 0: not given. */
     double subset_start, subset_end;
     bool cyclic;
+    struct shard shard;
+    bool resume;                    /* leave out what is finished          */
 
     enum brume_backend backend;
     bool has_integrator;

@@ -54,6 +54,21 @@ struct parse_written {
 };
 void parse_written_release(struct parse_written *written);
 
+/* Paths as the scene found them, each once. */
+struct parse_paths {
+    char **path;
+    size_t count, room;
+};
+
+/* What a scene depends on besides its input: the files that it read, and the
+ * places where it looked for one in vain. What the scenes of the film wrote
+ * is left out. Zero to begin with; calls add to it. */
+struct parse_origins {
+    struct parse_paths read, missing;
+    bool incomplete;            /* there were too many to be kept          */
+};
+void parse_origins_release(struct parse_origins *origins);
+
 struct parse_input {
     const char *path;           /* the scene; "-" if text is not a file's  */
     const char *text;           /* read already (standard input); or NULL  */
@@ -75,6 +90,7 @@ struct parse_input {
     const char *const *allow_read, *const *allow_write;
     size_t allow_reads, allow_writes;   /* the output folder is the last   */
     struct parse_written *written;      /* or NULL                         */
+    struct parse_origins *origins;      /* or NULL                         */
     const struct parse_declare *declare;
     size_t declares;
     struct parse_ambient ambient;

@@ -73,6 +73,13 @@ bool permit_reads(const struct parser *parser, const char *path)
     return realpath(path, real) && may_read(parser, real);
 }
 
+bool permit_wrote(const struct parser *parser, const char *path)
+{
+    char real[PATH_MAX];
+    return parser->in->written && parser->in->written->count > 0 &&
+           realpath(path, real) && written_file(parser->in, real);
+}
+
 /* A shell's or another program's settings are nothing for a scene to write. */
 static bool is_hidden(const char *rest)
 {

@@ -12,6 +12,9 @@
 /* Whether a text may be read; the file need not be there. */
 bool permit_reads(const struct parser *parser, const char *path);
 
+/* Whether a scene of the film wrote the file. */
+bool permit_wrote(const struct parser *parser, const char *path);
+
 /* What --check keeps aside of a file that the scene wrote; -1: nothing. */
 int permit_kept(const struct parser *parser, const char *path);
 

@@ -1,8 +1,10 @@
 #include "parser/reel.h"
+#include "lib/hash.h"
 #include "lib/timer.h"
 #include "parser/input.h"
 #include "parser/naming.h"
 #include "parser/picture.h"
+#include "parser/settings.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -113,11 +115,38 @@ static void warn_of_extension(struct reel *reel)
     warn(reel, text);
 }
 
+static bool choose_part(struct reel *reel, struct brume_error *err)
+{
+    struct shard *shard = &reel->options->shard;
+    if (shard->slurm && !shard_ask_slurm(shard, err))
+        return false;
+    if (shard->slurm || shard->count > 0)
+        frames_shard(&reel->frames, shard);
+    return true;
+}
+
+/* Films have one, and pictures that shall be left out if they are finished. */
+static bool open_manifest(struct reel *reel, struct brume_error *err)
+{
+    struct options *o = reel->options;
+    bool wanted = o->action == OPTIONS_RENDER && o->to_file &&
+                  (reel->frames.animation || o->resume);
+    if (!wanted || naming_is_stream(o))
+        return true;
+    const char *path = naming_beside(o, ".frames.jsonl", &reel->arena);
+    if (!path)
+        return brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+    reel->manifest = manifest_open(path, o->resume, err);
+    return reel->manifest;
+}
+
 static bool begin(struct reel *reel, struct brume_error *err)
 {
     frames_init(&reel->frames, reel->options);
-    if (!frames_region(reel->options, reel->region, err) ||
-        !find_scene(reel, err) || !find_folders(reel, err))
+    if (!choose_part(reel, err) ||
+        !frames_region(reel->options, reel->region, err) ||
+        !find_scene(reel, err) || !find_folders(reel, err) ||
+        !open_manifest(reel, err))
         return false;
     warn_of_extension(reel);
     if (reel->options->tree == BRUME_TREE_BOTH)
@@ -129,7 +158,7 @@ static bool begin(struct reel *reel, struct brume_error *err)
 
 static bool read_scene(struct reel *reel, int number,
                        struct parse_result *result, struct reel_record *record,
-                       struct diag *diag)
+                       struct parse_origins *origins, struct diag *diag)
 {
     const struct options *options = reel->options;
     const struct reel_events *events = reel->events;
@@ -149,6 +178,7 @@ static bool read_scene(struct reel *reel, int number,
         .allow_write = reel->allow_write,
         .allow_writes = reel->allow_writes,
         .written = &reel->written,
+        .origins = reel->manifest ? origins : NULL,
         .declare = options->declare,
         .declares = options->declares,
         .limits = {.include_depth = options->include_depth,
@@ -261,14 +291,42 @@ static bool write_frame(struct reel *reel, const struct brume_frame *frame,
     };
     if (!options->to_file)
         return true;
-    record->picture = naming_picture(options, &reel->frames, record->number,
-                                     &reel->arena);
-    if (!record->picture)
-        return brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
     double start = timer_seconds();
     bool ok = picture_write(&picture, record->picture, reel->events->out, err);
     record->seconds_write = timer_seconds() - start;
     return ok;
+}
+
+static double all_seconds(const struct reel_record *r)
+{
+    return r->seconds_parse + r->stats.seconds_prepare +
+           r->stats.seconds_render + r->seconds_write;
+}
+
+/* A scene from a stream is no file that could be looked at. */
+static uint64_t settings_of(const struct reel *reel, int number)
+{
+    uint64_t hash = settings_hash(reel->options, &reel->frames, number);
+    return reel->text ? hash_bytes(hash, reel->text, reel->length) : hash;
+}
+
+static bool note_picture(const struct reel *reel,
+                         const struct reel_record *record,
+                         const struct parse_origins *origins,
+                         struct brume_error *err)
+{
+    struct manifest_entry entry = {
+        .number = record->number,
+        .clock_on = record->clock_on,
+        .clock = record->clock,
+        .picture = record->picture,
+        .settings = settings_of(reel, record->number),
+        .origins = origins,
+        .writes = reel->written.count > 0,
+        .stats = &record->stats,
+        .seconds = all_seconds(record),
+    };
+    return !reel->manifest || manifest_add(reel->manifest, &entry, err);
 }
 
 static bool keep_record(struct reel *reel, const struct reel_record *record,
@@ -303,7 +361,8 @@ static void warn_of_samples(struct reel *reel, const struct brume_stats *stats)
 }
 
 static bool render(struct reel *reel, const struct parse_result *scene,
-                   struct reel_record *record, struct brume_error *err)
+                   struct reel_record *record,
+                   const struct parse_origins *origins, struct brume_error *err)
 {
     struct brume_options options = render_options(reel, record->number, scene);
     struct brume_frame frame = {0};
@@ -312,6 +371,7 @@ static bool render(struct reel *reel, const struct parse_result *scene,
     record->stats = frame.stats;
     warn_of_samples(reel, &frame.stats);
     bool ok = write_frame(reel, &frame, record, err) &&
+              note_picture(reel, record, origins, err) &&
               keep_record(reel, record, err);
     brume_frame_free(&frame);
     if (ok)
@@ -365,11 +425,12 @@ static bool measure(struct reel *reel, const struct parse_result *scene,
 }
 
 static bool act_on(struct reel *reel, const struct parse_result *scene,
-                   struct reel_record *record, struct brume_error *err)
+                   struct reel_record *record,
+                   const struct parse_origins *origins, struct brume_error *err)
 {
     switch (reel->options->action) {
     case OPTIONS_RENDER:
-        return render(reel, scene, record, err);
+        return render(reel, scene, record, origins, err);
     case OPTIONS_EXPLAIN:
     case OPTIONS_EXPLAIN_JSON:
         return explain(reel, scene, record->number, err);
@@ -380,27 +441,60 @@ static bool act_on(struct reel *reel, const struct parse_result *scene,
     }
 }
 
-static enum brume_code run_frame(struct reel *reel, int number)
+/* Reads the scene; `act`: and does with it what is asked for. */
+static enum brume_code read_and_act(struct reel *reel,
+                                    struct reel_record *record, bool act)
 {
     const struct reel_events *events = reel->events;
-    struct reel_record record = {0};
     struct parse_result scene = {0};
+    struct parse_origins origins = {0};
     struct brume_error err = {0};
     struct diag diag;
-    events->frame(events->user, &reel->frames, number);
     diag_init(&diag);
-    bool ok = read_scene(reel, number, &scene, &record, &diag);
+    bool ok = read_scene(reel, record->number, &scene, record, &origins, &diag);
     enum brume_code code = ok ? BRUME_OK : diag.code;
     if (code != BRUME_STOPPED)
         report(reel, &diag);
     diag_release(&diag);
     if (ok && events->stopped(events->user))
         code = BRUME_STOPPED;
-    else if (ok && !act_on(reel, &scene, &record, &err))
+    else if (ok && act && !act_on(reel, &scene, record, &origins, &err))
         code = err.code == BRUME_STOPPED ? BRUME_STOPPED : fail(reel, &err);
     if (scene.scene)
         brume_scene_free(scene.scene);
+    parse_origins_release(&origins);
     return code;
+}
+
+/* Whether the picture is there already, as this run would make it. */
+static bool is_finished(const struct reel *reel,
+                        const struct reel_record *record, bool *writes)
+{
+    const struct options *o = reel->options;
+    return reel->manifest && o->resume &&
+           manifest_has(reel->manifest, record->number,
+                        settings_of(reel, record->number), record->picture,
+                        writes);
+}
+
+static enum brume_code run_frame(struct reel *reel, int number)
+{
+    const struct reel_events *events = reel->events;
+    const struct options *o = reel->options;
+    struct reel_record record = {.number = number};
+    bool writes = false;
+    events->frame(events->user, &reel->frames, number);
+    if (o->to_file && o->action == OPTIONS_RENDER) {
+        record.picture = naming_picture(o, &reel->frames, number, &reel->arena);
+        if (!record.picture)
+            return fail(reel, &(struct brume_error){.code = BRUME_ERR_MEMORY,
+                                                    .text = "out of memory"});
+    }
+    if (!is_finished(reel, &record, &writes))
+        return read_and_act(reel, &record, true);
+    reel->skipped++;
+    events->skipped(events->user, record.picture);
+    return writes ? read_and_act(reel, &record, false) : BRUME_OK;
 }
 
 /* ---- the film ---------------------------------------------------------- */
@@ -420,6 +514,8 @@ enum brume_code reel_run(struct reel *reel, struct options *options,
     if (!begin(reel, &err))
         return events->stopped(events->user) ? BRUME_STOPPED : fail(reel, &err);
     const struct frames *f = &reel->frames;
+    if (f->none)
+        return BRUME_OK;
     for (int i = f->first;; i += f->step) {
         enum brume_code code = run_frame(reel, i);
         bool more = goes_on(reel) && f->last - i >= f->step;
@@ -433,5 +529,6 @@ void reel_release(struct reel *reel)
 {
     parse_written_release(&reel->written);
     brume_still_free(reel->still);
+    manifest_close(reel->manifest);
     arena_release(&reel->arena);
 }

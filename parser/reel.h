@@ -7,6 +7,7 @@
 #include "core/brume.h"
 #include "parser/diag.h"
 #include "parser/frames.h"
+#include "parser/manifest.h"
 #include "parser/measure.h"
 #include "parser/options.h"
 #include "parser/parse.h"
@@ -32,6 +33,8 @@ struct reel_events {
     void (*progress)(void *user, const struct brume_progress *progress);
     void (*measured)(void *user, const struct measure *measure);
     void (*finished)(void *user, const struct reel_record *record);
+    /* A picture that is left out, being finished already. */
+    void (*skipped)(void *user, const char *picture);
     bool (*stopped)(void *user);    /* true: end with BRUME_STOPPED        */
     FILE *in, *out;             /* for a scene or a picture called "-"     */
 };
@@ -50,6 +53,8 @@ struct reel {
     size_t libraries, allow_writes;
     struct parse_written written;
     struct brume_still *still;      /* of --tree both                      */
+    struct manifest *manifest;      /* or NULL                             */
+    size_t skipped;                 /* pictures that were left out         */
     int region[4];
 };
 

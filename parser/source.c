@@ -1,5 +1,6 @@
 #include "parser/source.h"
 #include "lib/memory.h"
+#include "parser/origins.h"
 #include "parser/permit.h"
 #include "parser/report.h"
 #include "parser/utf8.h"
@@ -186,6 +187,7 @@ struct source *source_open(struct parser *parser, struct location at,
 struct source *source_open_path(struct parser *parser, struct location at,
                                 const char *path)
 {
+    origins_add(parser->in->origins, path);
     return open_named(parser, at, path, permit_open_any);
 }
 

@@ -30,7 +30,7 @@ new_case 'a subset has the names and clocks of the whole'
 quick s.pov +KFF12 +SF11 +EF1.0 +EF11 +Osub.png
 exits 0
 has sub11.png
-is "$(echo sub*)" sub11.png
+is "$(echo sub*)" 'sub.frames.jsonl sub11.png'
 brume s.pov --check +KFF10 +SF0.5 +EF0.75
 is "$(grep -c frame said)" 3
 says 'frame 5 clock 0.444 of 10'

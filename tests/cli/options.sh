@@ -72,16 +72,14 @@ exits 2
 says '+W: a value is missing'
 
 new_case 'what is not supported yet says so'
-for word in +C --resume --preview +FJ +FT +UF Create_Ini=on; do
+for word in --preview +FJ +FT +UF Create_Ini=on; do
     brume s.pov "$word"
     exits 2
     says 'not supported yet'
 done
-for word in 'integrator progressive' 'shard 1/2'; do
-    brume s.pov "--${word% *}" "${word#* }"
-    exits 2
-    says 'not supported yet'
-done
+brume s.pov --integrator progressive
+exits 2
+says 'not supported yet'
 
 new_case 'what has no effect is accepted'
 quick s.pov +A0.1 +AM2 +R3 +J -D +P +X +Q9 +MB25 Display_Gamma=sRGB \

@@ -227,6 +227,10 @@ static void test_options__bad_values(void **state)
     ASSERT_ERROR("--seed: '-1' is not a whole number from 0 to 2^64 - 1",
                  "--seed=-1");
     ASSERT_ERROR("--spp: a value is missing", "--spp");
+    ASSERT_ERROR("--shard: '3/2' is neither part I of N, as 2/5, nor 'slurm'",
+                 "--shard", "3/2");
+    ASSERT_ERROR("--shard: '0/2' is neither part I of N, as 2/5, nor 'slurm'",
+                 "--shard", "0/2");
     ASSERT_ERROR("--version: no value is expected, '3' was given",
                  "--version=3");
     ASSERT_ERROR("--backend: 'gpu' is not one of auto, cpu, cuda", "--backend",
@@ -239,10 +243,6 @@ static void test_options__bad_values(void **state)
 static void test_options__not_yet(void **state)
 {
     (void)state;
-    ASSERT_ERROR("+C: not supported yet", "+C");
-    ASSERT_ERROR("Continue_Trace: not supported yet", "Continue_Trace=on");
-    ASSERT_ERROR("--resume: not supported yet", "--resume");
-    ASSERT_ERROR("--shard: not supported yet", "--shard", "1/2");
     ASSERT_ERROR("--preview: not supported yet", "--preview");
     ASSERT_ERROR("--integrator: 'progressive' is not supported yet",
                  "--integrator", "progressive");

@@ -80,6 +80,12 @@ static void on_finished(void *user, const struct reel_record *record)
     tell("%s; ", record->picture ? record->picture : "none");
 }
 
+static void on_skipped(void *user, const char *picture)
+{
+    (void)user;
+    tell("skipped %s; ", picture);
+}
+
 static bool on_stopped(void *user)
 {
     (void)user;
@@ -106,6 +112,7 @@ static enum brume_code run_words(const char *scene, const char *const *word)
         .planned = on_planned,
         .progress = on_progress,
         .finished = on_finished,
+        .skipped = on_skipped,
         .stopped = on_stopped,
         .in = in,
         .out = stderr,
@@ -232,6 +239,44 @@ static void test_reel__unwritable_picture(void **state)
     assert_int_equal(finished, 0);
 }
 
+static void test_reel__resumed(void **state)
+{
+    (void)state;
+    stop_after = 1;
+    assert_int_equal(RUN(clock_scene, "-", "+KFF3", "+Or"), BRUME_STOPPED);
+    stop_after = -1;
+    assert_int_equal(RUN(clock_scene, "-", "+KFF3", "+Or", "--resume"),
+                     BRUME_OK);
+    assert_string_equal(told, "frame 1; skipped r1.png; "
+                              "frame 2; clock 0.50; r2.png; "
+                              "frame 3; clock 1.00; r3.png; ");
+    /* Another seed, another picture. */
+    assert_int_equal(RUN(clock_scene, "-", "+KFF3", "+Or", "+C", "--seed=1"),
+                     BRUME_OK);
+    assert_null(strstr(told, "skipped"));
+    assert_int_equal(RUN(clock_scene, "-", "+KFF3", "+Or", "--seed=1"),
+                     BRUME_OK);
+    assert_null(strstr(told, "skipped"));
+}
+
+static void test_reel__shards(void **state)
+{
+    (void)state;
+    stop_after = -1;
+    assert_int_equal(RUN(clock_scene, "-", "+KFF5", "+Op", "--shard=2/3"),
+                     BRUME_OK);
+    assert_string_equal(told, "frame 2; clock 0.25; p2.png; "
+                              "frame 3; clock 0.50; p3.png; ");
+    assert_int_equal(RUN(clock_scene, "-", "+KFF2", "+Oq", "--shard=2/5"),
+                     BRUME_OK);
+    assert_string_equal(told, "");
+    unsetenv("SLURM_ARRAY_TASK_ID");
+    unsetenv("SLURM_STEP_NUM_TASKS");
+    assert_int_equal(RUN(clock_scene, "-", "+KFF2", "--shard=slurm"),
+                     BRUME_ERR_USAGE);
+    assert_non_null(strstr(told, "SLURM_ARRAY_TASK_ID"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,6 +285,8 @@ int main(void)
         cmocka_unit_test(test_reel__check_and_explain),
         cmocka_unit_test(test_reel__failing_frame),
         cmocka_unit_test(test_reel__stopped),
+        cmocka_unit_test(test_reel__resumed),
+        cmocka_unit_test(test_reel__shards),
         cmocka_unit_test(test_reel__before_the_first_frame),
         cmocka_unit_test(test_reel__foreign_extension),
         cmocka_unit_test(test_reel__unwritable_picture),
