@@ -27,9 +27,14 @@ struct backend {
      * cells of the field, which are zero after open. */
     bool (*trace)(void *state, const photon_job *job, struct brume_stats *stats,
                   struct brume_error *err);
-    /* Makes the field of the sums, `unit` being the power of the mean photon,
-     * with what comes straight from lights where it is to hold that. */
+    /* Makes the field of the sums, `unit` being the power of the mean photon;
+     * 0: it is as it was put. Adds what comes straight from lights where it is
+     * to hold that. */
     bool (*gather)(void *state, double unit, struct brume_error *err);
+    /* Copy the numbers of the field, flat->radiance_count of them, out of the
+     * backend and into it; both NULL where it works on those of `flat`. */
+    bool (*take)(void *state, float *cells, struct brume_error *err);
+    bool (*put)(void *state, const float *cells, struct brume_error *err);
     /* Adds samples [film->samples, film->samples + count) to every pixel. On
      * failure or stop the film is not to be used any more. */
     bool (*sample)(void *state, uint32_t count, struct brume_stats *stats,

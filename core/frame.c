@@ -1,10 +1,8 @@
-/* One frame: prepare the scene, choose a backend, sample until the picture is
- * as good as asked, resolve. */
+#include "core/frame.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "core/backend.h"
 #include "core/physics/kdtree.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
@@ -16,18 +14,6 @@
 
 /* Entries of a kd-tree's stack, if no other number is asked for. */
 #define DEFAULT_STACK 4
-
-struct frame_job {
-    const struct brume_options *options;
-    struct brume_frame *out;
-    struct film film;
-    double start, sampling; /* seconds of the clock                    */
-    double error;           /* aimed at, 0: none                       */
-    uint32_t most;          /* samples                                 */
-    uint32_t pass;          /* samples of the current pass             */
-    uint64_t photons;       /* of the trace that runs; 0: paths do     */
-    bool stopped;
-};
 
 #ifndef BRUME_CUDA
 static bool cuda_available(char *why, size_t size)
@@ -225,11 +211,11 @@ static bool check_memory(const struct frame_job *j, const struct flat *flat,
 }
 
 /* Emits, traces and gathers: fills the field of scattered light. */
-static bool run_photons(struct frame_job *j, const struct backend *b,
-                        void *state, const struct flat *flat,
-                        struct brume_error *err)
+static bool run_photons(struct frame_job *j, struct brume_error *err)
 {
     struct brume_photon_stats *stats = &j->out->stats.photons;
+    const struct backend *b = j->backend;
+    const struct flat *flat = j->flat;
     struct photons photons;
     if (!b->trace)
         return brume_fail(err, BRUME_ERR_USAGE,
@@ -239,11 +225,12 @@ static bool run_photons(struct frame_job *j, const struct backend *b,
     double start = j->sampling = timer_seconds();
     j->photons = photons.job.count;
     bool good = photons.job.sources == 0 ||
-                b->trace(state, &photons.job, &j->out->stats, err);
+                b->trace(j->state, &photons.job, &j->out->stats, err);
     if (good && j->stopped)
         good = brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
     good = good &&
-           b->gather(state, photons.job.power / (double)photons.job.count, err);
+           b->gather(j->state, photons.job.power / (double)photons.job.count,
+                     err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
     stats->bytes = radiance_sum_bytes(flat) +
                    flat->radiance_count * sizeof(float);
@@ -270,26 +257,80 @@ static void *open_backend(struct frame_job *j, const struct backend **b,
     return (*b)->open(frame, err);
 }
 
-static bool render_flat(struct frame_job *j, struct flat *flat,
-                        struct brume_error *err)
+/* Makes the film and brings the scene to the backend. */
+static bool open_state(struct frame_job *j, struct brume_error *err)
 {
-    const struct backend *b = choose_backend(j->options, err);
-    if (!b || !film_init(&j->film, j->options, err) ||
-        !check_memory(j, flat, err))
+    double start = timer_seconds();
+    j->backend = choose_backend(j->options, err);
+    if (!j->backend || !film_init(&j->film, j->options, err) ||
+        !check_memory(j, j->flat, err))
         return false;
-    struct stages stages = plan_stages(flat, j->options);
-    struct backend_frame frame = {flat, j->options, &stages, &j->film, tick, j};
-    void *state = open_backend(j, &b, &frame, err);
-    if (!state)
+    j->stages = plan_stages(j->flat, j->options);
+    struct backend_frame frame = {j->flat,  j->options, &j->stages,
+                                  &j->film, tick,       j};
+    j->state = open_backend(j, &j->backend, &frame, err);
+    if (!j->state)
         return false;
     snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
-             b->name);
-    j->out->stats.seconds_prepare = timer_seconds() - j->start;
-    bool good = !stages.photons || run_photons(j, b, state, flat, err);
-    good = good && sample_passes(j, b, state, err);
-    b->close(state);
-    return good &&
-           film_resolve(&j->film, j->options->omit_background, j->out, err);
+             j->backend->name);
+    j->out->stats.seconds_prepare += timer_seconds() - start;
+    return true;
+}
+
+static void close_state(struct frame_job *j)
+{
+    if (j->state)
+        j->backend->close(j->state);
+    j->state = NULL;
+    film_release(&j->film);
+    memset(&j->film, 0, sizeof j->film);
+}
+
+/* The field without what comes straight from lights, where it is to hold
+ * that: no filter is needed for it. */
+static bool trace_multiple(struct frame_job *j, struct brume_error *err)
+{
+    bool single = j->flat->view.field.single;
+    j->flat->view.field.single = false;
+    bool good = open_state(j, err) && run_photons(j, err) &&
+                (!j->backend->take ||
+                 j->backend->take(j->state, j->flat->radiance, err));
+    j->flat->view.field.single = single;
+    return good;
+}
+
+bool frame_trace(struct frame_job *j, struct brume_error *err)
+{
+    double start = timer_seconds();
+    bool good = trace_multiple(j, err);
+    close_state(j);
+    j->spent += timer_seconds() - start;
+    return good;
+}
+
+static bool run_stages(struct frame_job *j, bool traced,
+                       struct brume_error *err)
+{
+    const struct backend *b = j->backend;
+    if (!j->stages.photons)
+        return sample_passes(j, b, j->state, err);
+    bool good = traced
+                    ? (!b->put || b->put(j->state, j->flat->radiance, err)) &&
+                          b->gather(j->state, 0.0, err)
+                    : run_photons(j, err);
+    return good && sample_passes(j, b, j->state, err);
+}
+
+bool frame_render(struct frame_job *j, bool traced, struct brume_error *err)
+{
+    j->start = timer_seconds() - j->spent;
+    bool good = open_state(j, err) && run_stages(j, traced, err) &&
+                film_resolve(&j->film, j->options->omit_background, j->out,
+                             err);
+    if (good)
+        report_goal(j);
+    close_state(j);
+    return good;
 }
 
 static struct flat *prepare(brume_scene *scene,
@@ -314,20 +355,35 @@ static struct flat *prepare(brume_scene *scene,
     return prepare_scene(&p, err);
 }
 
+bool frame_open(struct frame_job *j, brume_scene *scene,
+                const struct brume_options *options, struct brume_frame *out,
+                struct brume_error *err)
+{
+    memset(out, 0, sizeof *out);
+    *j = (struct frame_job){
+        .options = options, .out = out, .start = timer_seconds()};
+    set_goal(j);
+    j->flat = prepare(scene, options, err);
+    bool good = j->flat && plan_layout(j->flat, options, err);
+    j->spent = timer_seconds() - j->start;
+    out->stats.seconds_prepare = j->spent;
+    return good;
+}
+
+void frame_close(struct frame_job *j)
+{
+    close_state(j);
+    flat_free(j->flat);
+    j->flat = NULL;
+}
+
 bool brume_render(brume_scene *scene, const struct brume_options *options,
                   struct brume_frame *frame, struct brume_error *err)
 {
-    memset(frame, 0, sizeof *frame);
-    struct frame_job job = {
-        .options = options, .out = frame, .start = timer_seconds()};
-    set_goal(&job);
-    struct flat *flat = prepare(scene, options, err);
-    bool good = flat && plan_layout(flat, options, err) &&
-                render_flat(&job, flat, err);
-    if (good)
-        report_goal(&job);
-    film_release(&job.film);
-    flat_free(flat);
+    struct frame_job job;
+    bool good = frame_open(&job, scene, options, frame, err) &&
+                frame_render(&job, false, err);
+    frame_close(&job);
     return good;
 }
 

@@ -93,6 +93,11 @@ static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,
 }
 
 const struct backend backend_cpu = {
-    "cpu",      cpu_available, cpu_open,  cpu_trace,
-    cpu_gather, cpu_sample,    cpu_close,
+    .name = "cpu",
+    .available = cpu_available,
+    .open = cpu_open,
+    .trace = cpu_trace,
+    .gather = cpu_gather,
+    .sample = cpu_sample,
+    .close = cpu_close,
 };

@@ -22,7 +22,8 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
 {
     struct cpu_state *s = state;
     struct flat *flat = s->frame.flat;
-    radiance_resolve(flat, s->sum, unit);
+    if (unit > 0.0)
+        radiance_resolve(flat, s->sum, unit);
     if (!flat->view.field.single)
         return true;
     atomic_store(&s->stop, false);

@@ -170,6 +170,6 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
 }
 
 extern "C" const struct backend backend_cuda = {
-    "cuda",  cuda_available, cuda_open,  nullptr,
-    nullptr, cuda_sample,    cuda_close,
+    "cuda",  cuda_available, cuda_open,   nullptr,    nullptr,
+    nullptr, nullptr,        cuda_sample, cuda_close,
 };

@@ -1,0 +1,36 @@
+/* frame.h - one frame in steps: prepare the scene, trace its photons, sample
+ * until the picture is as good as asked, resolve. */
+#ifndef CORE_FRAME_H
+#define CORE_FRAME_H
+#include "core/backend.h"
+
+struct frame_job {
+    const struct brume_options *options;
+    struct brume_frame *out;
+    struct flat *flat;
+    struct film film;
+    struct stages stages;
+    const struct backend *backend;
+    void *state;            /* of the backend, while it is open        */
+    double start, sampling; /* seconds of the clock                    */
+    double spent;           /* before the picture was begun            */
+    double error;           /* aimed at, 0: none                       */
+    uint32_t most;          /* samples                                 */
+    uint32_t pass;          /* samples of the current pass             */
+    uint64_t photons;       /* of the trace that runs; 0: paths do     */
+    bool stopped;
+};
+
+/* Prepares and lays out; `options` and `out` have to stay where they are, the
+ * scene is not needed any more. To be closed in any case. */
+bool frame_open(struct frame_job *job, brume_scene *scene,
+                const struct brume_options *options, struct brume_frame *out,
+                struct brume_error *err);
+/* Fills the flat scene's field with what is scattered more than once, for a
+ * frame whose stages have photons. */
+bool frame_trace(struct frame_job *job, struct brume_error *err);
+/* The picture, its planes to be freed by the caller; `traced`: the field is
+ * in the flat scene. */
+bool frame_render(struct frame_job *job, bool traced, struct brume_error *err);
+void frame_close(struct frame_job *job);
+#endif
