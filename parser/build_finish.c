@@ -83,10 +83,13 @@ static void set_strength(struct parser *parser, struct frame *frame,
 {
     const struct param *of = row->id == WORD_ALBEDO ? frame->open : row;
 
+    if (of && of->id == WORD_ALBEDO)
+        of = NULL;
     frame->open = NULL;
     if (!of || count == 0) {
-        frame->open = row;
-        if (!of)
+        if (of)
+            frame->open = row;
+        else
             parser_mistake(parser, at,
                            "'albedo' belongs behind 'diffuse', "
                            "'phong' or 'specular'");
