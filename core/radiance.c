@@ -28,7 +28,8 @@ static double voxel_side(const struct flat *f)
         matrix map;
         for (int k = 0; k < 12; k++)
             map.m[k / 4][k % 4] = (double)m->to_cell.m[k];
-        double voxel = 0.125 / cbrt(fabs(matrix_determinant(&map)));
+        double voxel = 1.0 /
+                       ((double)m->side * cbrt(fabs(matrix_determinant(&map))));
         side = side == 0.0 ? voxel : fmin(side, voxel);
     }
     return side;
@@ -63,6 +64,16 @@ static bool has_surfaces(const struct flat *f)
     return false;
 }
 
+/* Whether all that the field's balls gather grows with the density of its
+ * medium. */
+static bool gives_by_density(const struct flat *f, bool births)
+{
+    for (size_t i = 0; i < f->media_count; i++)
+        if (births && f->media[i].fire && f->media[i].additive)
+            return false;
+    return true;
+}
+
 /* The eye's rays ask for what goes there, those that surfaces send on for
  * what goes anywhere. */
 static void choose_numbers(struct layout *l)
@@ -77,6 +88,7 @@ static void choose_numbers(struct layout *l)
     out->phase = m->phase;
     out->g = m->g;
     out->numbers = 0;
+    out->thick = out->ball && gives_by_density(f, out->births != 0);
     l->seen = !bounces && !l->options->everywhere && !f->view.view.orthographic;
     if (out->ball || (alike && !even)) {
         out->eye = 0;

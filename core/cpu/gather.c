@@ -5,6 +5,15 @@
 #include "core/radiance.h"
 #include "lib/thread.h"
 
+static void ball_brick(void *context, size_t index, int thread)
+{
+    (void)thread;
+    const struct cpu_state *s = context;
+    const flat_scene *v = &s->frame.flat->view;
+    for (int i = 0; i < 512 && v->radiance_slots[index] >= 0; i++)
+        ball_cell_run(v, index, i, s->frame.flat->radiance);
+}
+
 static void light_brick(void *context, size_t index, int thread)
 {
     (void)thread;
@@ -22,12 +31,14 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
 {
     struct cpu_state *s = state;
     struct flat *flat = s->frame.flat;
+    const radiance_lattice *f = &flat->view.field;
+    size_t bricks = (size_t)flat->radiance_slots_count;
+    atomic_store(&s->stop, false);
     if (unit > 0.0)
         radiance_resolve(flat, s->sum, unit);
-    if (!flat->view.field.single)
-        return true;
-    atomic_store(&s->stop, false);
-    return parallel_for(s->threads, (size_t)flat->radiance_slots_count,
-                        light_brick, s, &s->stop) ||
-           brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
+    bool good = !(unit > 0.0 && f->thick) ||
+                parallel_for(s->threads, bricks, ball_brick, s, &s->stop);
+    good = good && (!f->single ||
+                    parallel_for(s->threads, bricks, light_brick, s, &s->stop));
+    return good || brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
 }

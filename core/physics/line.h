@@ -129,8 +129,11 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
     bool read = false;
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
+    rgb ball = rgb_gray(0.0f);
     if (scene_may(MAY_FIELD) && job->scattered && job->s->field.ball)
-        out.source = radiance_at(job->s, p, true).eye;
+        ball = radiance_at(job->s, p, true).eye;
+    if (!job->s->field.thick)
+        out.source = ball;
     for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = &job->s->media[w->part[i].medium];
         const majorant_cell *bound = &w->part[i].bound;
@@ -139,6 +142,9 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         field_point x = lattice_point(job->s, &w->part[i], p, t);
         float density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_scale(m->sigma_t, density));
+        if (scene_may(MAY_FIELD) && job->s->field.thick)
+            out.source = rgb_add(out.source, rgb_scale(ball,
+                radiance_thickness(job->s, m, density)));
         if (scene_may(MAY_FIELD) && job->scattered && !job->s->field.ball &&
             density > 0.0f && !rgb_is_black(m->sigma_s)) {
             if (!read)

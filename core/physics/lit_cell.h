@@ -1,8 +1,7 @@
 /* lit_cell.h - light straight from the lights, at points of the field. */
 #ifndef CORE_PHYSICS_LIT_CELL_H
 #define CORE_PHYSICS_LIT_CELL_H
-#include "core/physics/inside.h"
-#include "core/physics/path.h"
+#include "core/physics/ball_cell.h"
 
 /* The streams of cells, apart from those of photons and of pixels' samples. */
 #define LIT_CELL_PASS 0xfffffffcu
@@ -32,10 +31,24 @@ HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
     }
 }
 
-/* Adds a light's part to the numbers of the cell around x. In a field of balls
- * the media there scatter it, else it is kept as light. */
+/* What goes on to the eye of light from wi: in a field of balls of what the
+ * media scatter, else of the light. */
+HD rgb lit_cell_seen(const flat_scene *s, const path_state *p,
+                     const ball_media *ball, vec3 wi)
+{
+    const radiance_lattice *f = &s->field;
+    float sigma_s;
+    if (f->thick)
+        return ball_scattered(s, ball, p->d, wi);
+    if (f->ball)
+        return path_scattered(s, p, 0.0f, wi, &sigma_s);
+    return rgb_gray(phase_eval_between(f->phase, f->g, p->d, wi) *
+                    phase_pov_scale(f->phase) * light_medium_factor(s));
+}
+
+/* Adds a light's part to the numbers of the cell around x. */
 HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
-                     float *out)
+                       const ball_media *ball, float *out)
 {
     const radiance_lattice *f = &s->field;
     light_sample l;
@@ -47,12 +60,10 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
     if (s->lights[light].shadows)
         in = rgb_mul(in, lit_cell_left(s, &set, x, l.shadow_wi,
                                      l.shadow_distance));
-    float scatter;
-    rgb seen = rgb_mul(in, path_scattered(s, p, 0.0f, l.wi, &scatter));
+    rgb seen = rgb_gray(0.0f);
+    if (f->eye >= 0)
+        seen = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));
     in = rgb_scale(in, light_medium_factor(s));
-    if (!f->ball && f->eye >= 0)
-        seen = rgb_scale(in, phase_eval_between(f->phase, f->g, p->d, l.wi) *
-                                 phase_pov_scale(f->phase));
     for (int c = 0; c < 3; c++) {
         if (f->eye >= 0)
             out[f->eye + c] += rgb_get(seen, c);
@@ -65,16 +76,24 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
 
 /* All lights, at the middle of a cell. */
 HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
-                    track_counters *count)
+                 track_counters *count)
 {
     path_state p;
     container_set set;
+    ball_media ball;
+    ball.count = 0;
+    ball.thickness = 0.0f;
+    if (s->field.thick) {
+        ball = ball_media_at(s, x);
+        if (!(ball.thickness > 0.0f))
+            return;
+    }
     inside_find(s, x, &set);
     path_begin(&p, x, vec3_scale(radiance_to_eye(s, x), -1.0f), &set, true,
                random);
     p.count = count;
     for (uint64_t i = 0; i < s->lights_count; i++)
-        lit_cell_light(s, (int)i, &p, x, out);
+        lit_cell_light(s, (int)i, &p, x, &ball, out);
 }
 
 /* Cell i of a brick that is there, into its numbers. */
@@ -83,17 +102,9 @@ HD void lit_cell_run(const flat_scene *s, uint64_t seed, uint32_t frame,
                      track_counters *count)
 {
     const radiance_lattice *f = &s->field;
-    uint64_t row = brick / (uint64_t)f->bricks[0];
-    uint64_t at[3] = {brick % (uint64_t)f->bricks[0],
-                      row % (uint64_t)f->bricks[1],
-                      row / (uint64_t)f->bricks[1]};
     uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
-    int place[3] = {8 * (int)at[0] + (i & 7), 8 * (int)at[1] + (i >> 3 & 7),
-                    8 * (int)at[2] + (i >> 6)};
-    vec3 x = vec3_make(f->origin[0] + ((float)place[0] + 0.5f) * f->side,
-                       f->origin[1] + ((float)place[1] + 0.5f) * f->side,
-                       f->origin[2] + ((float)place[2] + 0.5f) * f->side);
-    lit_cell(s, x, rng_make(seed, frame, LIT_CELL_PASS, cell),
+    lit_cell(s, radiance_middle(s, brick, i),
+             rng_make(seed, frame, LIT_CELL_PASS, cell),
              cells + cell * (uint64_t)f->numbers, count);
 }
 

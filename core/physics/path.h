@@ -355,6 +355,24 @@ HD bool path_survives(path_state *p)
     return true;
 }
 
+/* Thickness of all media at x, as a field of balls counts it. */
+HD float path_thickness(const flat_scene *s, const container_set *set, vec3 x)
+{
+    float sum = 0.0f;
+    for (int i = -1; i < container_count(set); i++) {
+        int32_t interior = i < 0 ? s->atmosphere
+                                 : s->shapes[set->shape[i]].interior;
+        for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
+             k++) {
+            const flat_medium *m = &s->media[
+                s->interior_media[s->interiors[interior].first + k]];
+            field_point at = field_point_make(s, m->lead, x);
+            sum += radiance_thickness(s, m, medium_density(s, m, &at));
+        }
+    }
+    return sum;
+}
+
 /* All light but the lights' own, where a field holds it. The straight line
  * gathers it by itself. */
 HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
@@ -364,8 +382,10 @@ HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
     radiance_point x = radiance_at(s, v->p, s->field.ball);
     if (s->field.ball) {
         /* Toward the eye: all that there is. */
-        path_add(p, rgb_scale(rgb_mul(p->beta, x.eye),
-                              1.0f / v->event->sigma_s));
+        float scale = 1.0f / v->event->sigma_s;
+        if (s->field.thick)
+            scale *= path_thickness(s, &p->inside, v->p);
+        path_add(p, rgb_scale(rgb_mul(p->beta, x.eye), scale));
         return;
     }
     rgb light = radiance_toward(&x, v->medium->phase, v->medium->g,

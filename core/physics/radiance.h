@@ -45,6 +45,27 @@ HD int64_t radiance_cell(const flat_scene *s, int x, int y, int z)
     return (int64_t)slot * 512 + ((z & 7) * 8 + (y & 7)) * 8 + (x & 7);
 }
 
+/* The middle of cell i of a brick. */
+HD vec3 radiance_middle(const flat_scene *s, uint64_t brick, int i)
+{
+    const radiance_lattice *f = &s->field;
+    uint64_t row = brick / (uint64_t)f->bricks[0];
+    int x = 8 * (int)(brick % (uint64_t)f->bricks[0]) + (i & 7);
+    int y = 8 * (int)(row % (uint64_t)f->bricks[1]) + (i >> 3 & 7);
+    int z = 8 * (int)(row / (uint64_t)f->bricks[1]) + (i >> 6);
+    return vec3_make(f->origin[0] + ((float)x + 0.5f) * f->side,
+                     f->origin[1] + ((float)y + 0.5f) * f->side,
+                     f->origin[2] + ((float)z + 0.5f) * f->side);
+}
+
+/* By what a field of balls is spread over a medium: what gives light there in
+ * proportion to the density. */
+HD float radiance_thickness(const flat_scene *s, const flat_medium *m,
+                            float density)
+{
+    return density * rgb_mean(s->field.births ? m->bound : m->sigma_s);
+}
+
 HD void radiance_add_rgb(int64_t *sum, rgb value)
 {
     radiance_add(sum, (double)value.r);

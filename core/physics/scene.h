@@ -218,6 +218,7 @@ typedef struct {
     float g;
     int32_t ball;           /* 1: instead, what all media scatter toward the
                                eye, per length, by events within `radius`  */
+    int32_t thick;          /* ... and per thickness, see ball_cell.h      */
     float radius;
     int32_t single;         /* 1: light straight from lights is in it      */
     int32_t births;         /* 1: emission of media too                    */

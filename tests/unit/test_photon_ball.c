@@ -1,0 +1,179 @@
+/* Gathering by balls: pictures against closed forms and the path tracer's, in
+ * media whose density changes within a ball. */
+#include "tests/unit/truth.h"
+
+enum { SIDE = 12, PIXELS = SIDE * SIDE };
+
+static struct brume_globals full_transport(void)
+{
+    struct brume_globals g = BRUME_GLOBALS_INIT;
+    g.media_multiple = g.surfaces_indirect = g.environment = true;
+    return g;
+}
+
+static struct brume_options ball_options(uint64_t seed)
+{
+    struct brume_options o = BRUME_OPTIONS_INIT;
+    o.integrator = BRUME_INTEGRATOR_PHOTON;
+    o.photons.gather = BRUME_GATHER_BALL;
+    o.width = o.height = SIDE;
+    o.spp = 64;
+    o.seed = seed;
+    return o;
+}
+
+static double render_mean(brume_scene *s, const struct brume_options *o)
+{
+    struct brume_frame f;
+    double sum = 0.0;
+    assert_true(brume_render(s, o, &f, truth_error()));
+    assert_int_equal(f.stats.photons.clipped, 0);
+    for (int i = 0; i < 3 * PIXELS; i++)
+        sum += (double)f.radiance[i];
+    brume_frame_free(&f);
+    return sum / (3 * PIXELS);
+}
+
+/* Mean and standard error over `times` seeds. */
+static void render_often(brume_scene *s, struct brume_options o, int times,
+                         double *mean, double *error)
+{
+    double sum = 0.0, squares = 0.0;
+    for (int i = 0; i < times; i++) {
+        o.seed = (uint64_t)i + 1;
+        double x = render_mean(s, &o);
+        sum += x;
+        squares += x * x;
+    }
+    *mean = sum / times;
+    *error = sqrt(fmax(squares / times - *mean * *mean, 0.0) / (times - 1));
+}
+
+/* ---- T9: what leaves a sphere that glows evenly ------------------------- */
+
+/* Seen from afar, a ball of radius 1: the picture's mean times its area is the
+ * part that leaves of 4 pi q V, over 4 pi. */
+static brume_scene *glowing_ball(double sigma_a, double sigma_s, double q)
+{
+    struct brume_globals g = full_transport();
+    brume_scene *s = truth_scene(&g, 3.0, 1.0);
+    struct brume_camera c = BRUME_CAMERA_INIT;
+    c.kind = BRUME_CAMERA_ORTHOGRAPHIC;
+    c.location[2] = -3.0;
+    c.right[0] = c.up[1] = 2.0;
+    assert_true(brume_set_camera(s, &c, truth_error()));
+    struct brume_medium m = truth_medium(sigma_a, sigma_s, 0.0);
+    struct brume_shape b = BRUME_SHAPE_INIT;
+    b.kind = BRUME_SHAPE_SPHERE;
+    b.radius = 1.0;
+    for (int i = 0; i < 3; i++)
+        m.emission[i] = q;
+    truth_fill(s, b, &m);
+    return s;
+}
+
+/* Births alone, and births with what they scatter: radii of 2 mean free paths
+ * (METHODS.md 13.7). Balls at the rim are half out of the medium; over their
+ * whole volume they would lose 18 %. What is scattered falls toward the rim,
+ * within a ball too. */
+static void photon_ball__births_light_a_sphere(void **state)
+{
+    (void)state;
+    const double rows[2][3] = {{0.0005, 0.33241773, 0.001},
+                               {0.5, 0.48830, 0.015}};
+    for (int i = 0; i < 2; i++) {
+        double albedo = rows[i][0], mean, error;
+        double truth = rows[i][1] * 4.0 / 3.0 * TRUTH_PI / 4.0;
+        brume_scene *s = glowing_ball(2.0 * (1.0 - albedo), 2.0 * albedo, 1.0);
+        struct brume_options o = ball_options(1);
+        o.photons.emission = BRUME_EMISSION_PHOTONS;
+        o.photons.single = BRUME_SINGLE_FIELD;
+        o.photons.count = 150000;
+        o.photons.spacing = 0.1;
+        render_often(s, o, 8, &mean, &error);
+        if (!(fabs(mean / truth - 1.0) < rows[i][2] + 4.0 * error / truth) ||
+            !(error < 0.003 * truth))
+            fail_msg("albedo %g: %.5f +- %.5f, truth %.5f", albedo, mean, error,
+                     truth);
+        brume_scene_free(s);
+    }
+}
+
+/* ---- density that changes within a ball --------------------------------- */
+
+/* A cloud of a few voxels, dense in its middle, lit from its left. */
+static brume_scene *small_cloud(void)
+{
+    enum { VOXELS = 16 };
+    struct brume_globals g = full_transport();
+    const int32_t origin[3] = {0, 0, 0}, size[3] = {2, 2, 2};
+    brume_scene *s = truth_scene(&g, 5.0, 0.45);
+    struct grid *grid = grid_new(origin, size, 0.0f, truth_error());
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            grid->to_world[i][j] = i == j   ? 2.0 / VOXELS
+                                   : j == 3 ? -1.0 + 1.0 / VOXELS
+                                            : 0.0;
+    for (int i = 0; i < VOXELS * VOXELS * VOXELS; i++) {
+        int x = i % VOXELS, y = i / VOXELS % VOXELS, z = i / VOXELS / VOXELS;
+        double p[3] = {x - 7.5, y - 7.5, z - 7.5};
+        double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        float *v = grid_brick(grid, x >> 3, y >> 3, z >> 3, truth_error());
+        v[((z & 7) * 8 + (y & 7)) * 8 + (x & 7)] =
+            (float)(r < 7.0 ? exp(-0.1 * r * r) : 0.0);
+    }
+    grid_finish(grid);
+    struct brume_field f = BRUME_FIELD_INIT;
+    f.kind = BRUME_FIELD_GRID;
+    f.grid = brume_add_grid(s, grid, truth_error());
+    grid_free(grid);
+    struct brume_medium m = truth_medium(0.1, 12.0, 0.3);
+    m.density[0] = brume_add_field(s, &f, truth_error());
+    m.densities = 1;
+    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    struct brume_light l = BRUME_LIGHT_INIT;
+    l.location[0] = -100.0;
+    l.location[1] = 40.0;
+    l.location[2] = -30.0;
+    l.parallel = true;
+    l.color[0] = l.color[1] = l.color[2] = 1.0;
+    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    return s;
+}
+
+/* Balls of two voxels, and of one: over their volume alone the light would
+ * come from thinner parts than it does, and be 12 and 3 % too bright. */
+static void photon_ball__light_stays_where_media_are_thick(void **state)
+{
+    (void)state;
+    const double rows[2][2] = {{0.125, 0.075}, {0.0625, 0.02}};
+    brume_scene *s = small_cloud();
+    double truth, error, mean, noise;
+    struct brume_options o = ball_options(1);
+    o.integrator = BRUME_INTEGRATOR_PATH;
+    o.spp = 512;
+    render_often(s, o, 8, &truth, &error);
+    o.integrator = BRUME_INTEGRATOR_PHOTON;
+    o.spp = 64;
+    o.photons.count = 150000;
+    for (int i = 0; i < 4; i++) {
+        const double *row = rows[i / 2];
+        o.photons.spacing = row[0];
+        o.photons.single = (enum brume_single)(i % 2);
+        render_often(s, o, 4, &mean, &noise);
+        if (!(fabs(mean / truth - 1.0) < row[1]) ||
+            !(hypot(error, noise) < 0.005 * truth))
+            fail_msg("cells of %g, single %d: %.5f +- %.5f, path %.5f +- %.5f",
+                     row[0], i % 2, mean, noise, truth, error);
+    }
+    brume_scene_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photon_ball__births_light_a_sphere),
+        cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
