@@ -267,7 +267,8 @@ static bool check_field_function(const brume_scene *scene,
 {
     int parameters, results;
     return (brume_function_arity(scene, f->function, &parameters, &results) &&
-            parameters == 3 && f->component >= 0 && f->component < results) ||
+            parameters == 3 && f->component >= BRUME_COMPONENT_COLOR &&
+            f->component < results && (f->component >= 0 || results >= 3)) ||
            brume_fail(err, BRUME_ERR_SCENE,
                       "a field is no function of a point with that result");
 }

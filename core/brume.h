@@ -312,19 +312,23 @@ BRUME_API int brume_add_grid(brume_scene *scene, const struct grid *grid,
 enum brume_field_kind { BRUME_FIELD_CONSTANT, BRUME_FIELD_GRID,
                         BRUME_FIELD_FUNCTION };
 
-/* A scalar function of position, times `scale`. A grid's own transform places
- * it; `transform` follows. A function is drawn from a grid over the bounds of
- * its containers, so fine that the root of the mean squared error is at most
- * 1 % of that of the mean square, or of some two million samples, and a
- * warning tells the error; values below 0 count as 0. */
+/* A scalar function of position, times `scale`; of functions also a colour. A
+ * grid's own transform places it; `transform` follows. Functions are evaluated
+ * where their values are needed, those below 0 count as 0. Where one of its
+ * containers has no bounds a function is drawn from a grid over all that has,
+ * so fine that the root of the mean squared error is at most 1 % of that of
+ * the mean square, or of some two million samples, and a warning tells. */
 struct brume_field {
     enum brume_field_kind kind;
     double scale;               /* the value of a constant                 */
     int grid;
     double transform[3][4];
     int function;               /* from brume_add_function, of x, y, z     */
-    int component;              /* the result that counts, from 0          */
+    int component;              /* the result that counts, from 0, or
+                                   BRUME_COMPONENT_COLOR: the first three,
+                                   of a density                            */
 };
+#define BRUME_COMPONENT_COLOR (-1)
 #define BRUME_FIELD_INIT {BRUME_FIELD_CONSTANT, 1, -1, BRUME_IDENTITY, -1, 0}
 BRUME_API int brume_add_field(brume_scene *scene,
                               const struct brume_field *field,

@@ -49,5 +49,6 @@ void flat_free(struct flat *flat)
 #define X(type, name) free(flat->name);
     SCENE_ARRAYS(X)
 #undef X
+    free(flat->bounds);
     free(flat);
 }

@@ -11,6 +11,9 @@ struct flat {
 #define X(type, name) type *name; size_t name##_count, name##_capacity;
     SCENE_ARRAYS(X)
 #undef X
+    /* Of procedures, cell by cell: the largest of their values. */
+    float *bounds;
+    size_t bounds_count, bounds_capacity;
     /* How unit space lies: p_unit = (p - centre) unit. */
     double unit, centre[3];
     matrix to_unit, from_unit;

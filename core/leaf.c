@@ -324,6 +324,16 @@ static struct box solid_box(const struct solid *solid)
     return out;
 }
 
+struct box leaf_bounds(const struct leaf *leaf, const matrix *map)
+{
+    if (leaf->kind == SHAPE_MESH)
+        return mesh_bounds(leaf->mesh, map);
+    if (leaf->kind <= SHAPE_DISC)
+        return shape_bounds(leaf->kind, map);
+    struct box own = solid_box(&leaf->solid);
+    return box_transform(&own, map);
+}
+
 /* A surface_point of the shape's functions; NAN where they have no value. */
 static void parametric_point(void *context, double u, double v, double p[3])
 {
@@ -366,7 +376,7 @@ static bool take_mesh(const struct leaf_request *r, struct leaf *out,
         (r->closed && !heights && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0))
         out->flags |= SHAPE_THIN;
     out->map = *r->place;
-    out->bounds = mesh_bounds(out->mesh, &out->map);
+    out->bounds = leaf_bounds(out, &out->map);
     return true;
 }
 
@@ -387,14 +397,13 @@ bool leaf_make(const struct leaf_request *r, struct arena *arena,
     if (in->kind < BRUME_SHAPE_MESH) {
         local = make_shape(in, out);
         out->map = matrix_compose(r->place, &local);
-        out->bounds = shape_bounds(out->kind, &out->map);
+        out->bounds = leaf_bounds(out, &out->map);
         return true;
     }
     if (!make_solid(r, arena, out, &local, err))
         return false;
     out->map = matrix_compose(r->place, &local);
-    struct box own = solid_box(&out->solid);
-    out->bounds = box_transform(&own, &out->map);
+    out->bounds = leaf_bounds(out, &out->map);
     if (!out->solid.bounded)
         out->flags |= SHAPE_ENDLESS;
     return true;

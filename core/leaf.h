@@ -51,4 +51,6 @@ struct leaf_request {
 bool leaf_make(const struct leaf_request *request, struct arena *arena,
                struct leaf *leaf, struct brume_error *err);
 void leaf_release(struct leaf *leaf);
+/* Bounds under `map`, from its own space. */
+struct box leaf_bounds(const struct leaf *leaf, const matrix *map);
 #endif

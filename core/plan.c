@@ -87,6 +87,9 @@ static bool has_functions(const struct flat *f)
     for (size_t i = 0; i < f->materials_count; i++)
         if (f->materials[i].function >= 0)
             return true;
+    for (size_t i = 0; i < f->media_count; i++)
+        if (f->media[i].functions || f->media[i].sampled)
+            return true;
     return f->sky_count > 0 && f->sky[0].function >= 0;
 }
 
@@ -224,6 +227,25 @@ static void note_field(const struct flat *f, struct brume_plan *plan)
              l->bricks[1], l->bricks[2], (double)l->side / f->unit, l->numbers);
 }
 
+static void note_function(const struct flat *f, size_t field,
+                          struct brume_plan *plan)
+{
+    const flat_field *in = &f->fields[field];
+    if (in->kind == FIELD_FUNCTION) {
+        const flat_procedure *p = &f->procedures[in->grid];
+        add_note(plan,
+                 "field %zu: a function, evaluated where it is needed; bounds "
+                 "by samples in %d x %d x %d cells",
+                 field, p->cells[0], p->cells[1], p->cells[2]);
+        return;
+    }
+    const flat_grid *g = &f->grids[in->grid];
+    add_note(plan,
+             "field %zu: a function that fills unbounded space, on a grid of "
+             "%d x %d x %d bricks of 8^3 samples",
+             field, g->bricks[0], g->bricks[1], g->bricks[2]);
+}
+
 static void note_grids(const brume_scene *scene, const struct flat *f,
                        struct brume_plan *plan)
 {
@@ -244,13 +266,8 @@ static void note_grids(const brume_scene *scene, const struct flat *f,
                      g->to_world[0][0]);
     }
     for (size_t i = 0; i < scene->fields_count; i++)
-        if (scene->fields[i].kind == BRUME_FIELD_FUNCTION) {
-            const flat_grid *g = &f->grids[f->fields[i].grid];
-            add_note(plan,
-                     "field %zu: a function, on a grid of %d x %d x %d bricks "
-                     "of 8^3 samples",
-                     i, g->bricks[0], g->bricks[1], g->bricks[2]);
-        }
+        if (scene->fields[i].kind == BRUME_FIELD_FUNCTION)
+            note_function(f, i, plan);
     for (size_t i = 0; i < f->media_count; i++) {
         const flat_medium *m = &f->media[i];
         if (!m->uniform)

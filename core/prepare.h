@@ -31,11 +31,16 @@ bool prepare_shapes(const struct prepare *job, const struct assembly *a,
 /* prepare_grids.c: bricks with aprons, fields. */
 bool prepare_grids(const struct prepare *job, const struct assembly *a,
                    struct brume_error *err);
-/* prepare_function.c: a field that is a function, as a grid in the scene's
- * space over the bounds of its containers; freed with grid_free. */
-struct grid *prepare_function(const struct prepare *job,
-                              const struct assembly *a, int field,
-                              struct brume_error *err);
+/* prepare_function.c: a field that is a function becomes the last procedure,
+ * from whose index space *to_world leads to the scene's; where one of its
+ * containers has no bounds, nothing is done and *bounded false. */
+bool prepare_function(const struct prepare *job, const struct assembly *a,
+                      int field, matrix *to_world, bool *bounded,
+                      struct brume_error *err);
+/* prepare_bake.c: a result of such a field's function as a grid in the
+ * scene's space; freed with grid_free. */
+struct grid *prepare_bake(const struct prepare *job, const struct assembly *a,
+                          int field, int component, struct brume_error *err);
 /* prepare_media.c: media, their majorant lattices, interiors. */
 bool prepare_media(const struct prepare *job, struct brume_error *err);
 /* prepare_glow.c: the emitting voxels as lights, where light is followed. */

@@ -159,7 +159,7 @@ static void share_lattice(const struct flat *f, flat_field *out)
 {
     out->lattice = (int32_t)(out - f->fields);
     for (int32_t i = 0; i < out->lattice; i++)
-        if (f->fields[i].kind == FIELD_GRID &&
+        if (f->fields[i].kind != FIELD_CONSTANT &&
             memcmp(&f->fields[i].to_index, &out->to_index,
                    sizeof out->to_index) == 0) {
             out->lattice = i;
@@ -167,33 +167,63 @@ static void share_lattice(const struct flat *f, flat_field *out)
         }
 }
 
-/* A field that reads the flat grid `grid`, whose own space is the field's. */
-static bool place_field(const struct prepare *job, const struct grid *grid,
-                        const matrix *placed, flat_field *out,
-                        struct brume_error *err)
+/* A field whose own index space `to_index` leads from. */
+static bool set_index(const struct prepare *job, const matrix *to_scene,
+                      flat_field *out, struct brume_error *err)
 {
-    matrix file = matrix_from(grid->to_world), to_world, to_index;
-    to_world = matrix_compose(placed, &file);
-    to_world = matrix_compose(&job->flat->to_unit, &to_world);
-    if (!matrix_invert(&to_world, &to_index))
+    matrix to_unit = matrix_compose(&job->flat->to_unit, to_scene), to_index;
+    if (!matrix_invert(&to_unit, &to_index))
         return brume_fail(err, BRUME_ERR_SCENE,
-                          "a grid's place in the scene has no inverse");
+                          "the place of a grid or function in the scene has "
+                          "no inverse");
     out->to_index = matrix_affine(&to_index);
     share_lattice(job->flat, out);
     return true;
 }
 
-/* Through a grid of its own, which comes after all others. */
+/* A field that reads the grid, which `placed` moves. */
+static bool place_field(const struct prepare *job, const struct grid *grid,
+                        const matrix *placed, flat_field *out,
+                        struct brume_error *err)
+{
+    matrix to_scene = matrix_from(grid->to_world);
+    to_scene = matrix_compose(placed, &to_scene);
+    return set_index(job, &to_scene, out, err);
+}
+
+/* Through grids of its own, which come after all others. */
+static bool bake_function(const struct prepare *job, const struct assembly *a,
+                          int field, flat_field *out, struct brume_error *err)
+{
+    matrix here = matrix_identity();
+    int component = job->scene->fields[field].component;
+    out->colored = component < 0;
+    out->grid = (int32_t)job->flat->grids_count;
+    for (int i = 0; i < (out->colored ? 3 : 1); i++) {
+        struct grid *grid = prepare_bake(job, a, field,
+                                         out->colored ? i : component, err);
+        bool done = grid && add_grid(job, grid, err) &&
+                    place_field(job, grid, &here, out, err);
+        grid_free(grid);
+        if (!done)
+            return false;
+    }
+    return true;
+}
+
 static bool add_function(const struct prepare *job, const struct assembly *a,
                          int field, flat_field *out, struct brume_error *err)
 {
-    matrix here = matrix_identity();
-    struct grid *grid = prepare_function(job, a, field, err);
-    out->grid = (int32_t)job->flat->grids_count;
-    bool done = grid && add_grid(job, grid, err) &&
-                place_field(job, grid, &here, out, err);
-    grid_free(grid);
-    return done;
+    bool bounded;
+    matrix to_scene;
+    if (!prepare_function(job, a, field, &to_scene, &bounded, err))
+        return false;
+    if (!bounded)
+        return bake_function(job, a, field, out, err);
+    out->kind = FIELD_FUNCTION;
+    out->colored = job->scene->fields[field].component < 0;
+    out->grid = (int32_t)job->flat->procedures_count - 1;
+    return set_index(job, &to_scene, out, err);
 }
 
 static bool add_field(const struct prepare *job, const struct assembly *a,
@@ -308,6 +338,53 @@ static float range_bound(const struct flat *flat, const flat_grid *g,
     return most;
 }
 
+/* The cells of a procedure, from first to last. */
+static float cells_bound(const struct flat *flat, const flat_procedure *p,
+                         const int first[3], const int last[3])
+{
+    float most = 0.0f;
+    for (int z = first[2]; z <= last[2]; z++)
+        for (int y = first[1]; y <= last[1]; y++)
+            for (int x = first[0]; x <= last[0]; x++)
+                most = fmaxf(most,
+                             flat->bounds[p->bound + (size_t)x +
+                                          (size_t)p->cells[0] *
+                                              ((size_t)y + (size_t)p->cells[1] *
+                                                               (size_t)z)]);
+    return most;
+}
+
+/* A face that two cells share is of one of them. */
+static float procedure_bound(const struct flat *flat, const flat_procedure *p,
+                             const double lo[3], const double hi[3])
+{
+    int first[3], last[3];
+    for (int i = 0; i < 3; i++) {
+        double slack = fmin(1e-3, 0.25 * (hi[i] - lo[i]));
+        double a = floor((lo[i] + slack) / PROCEDURE_SIDE);
+        double b = floor((hi[i] - slack) / PROCEDURE_SIDE);
+        first[i] = a > 0.0 ? (int)fmin(a, p->cells[i]) : 0;
+        last[i] = b < p->cells[i] ? (int)fmax(b, -1.0) : p->cells[i] - 1;
+    }
+    return cells_bound(flat, p, first, last);
+}
+
+static float grid_bound(const struct flat *flat, const flat_grid *g,
+                        const double lo[3], const double hi[3])
+{
+    int first[3], last[3];
+    bool outside = false;
+    for (int i = 0; i < 3; i++)
+        outside |= sample_range(g, i, lo[i], hi[i], &first[i], &last[i]);
+    float most = range_bound(flat, g, first, last);
+    return fmaxf(most, outside ? flat->tiles[g->tile] : 0.0f);
+}
+
+static int field_grids(const flat_field *f)
+{
+    return f->colored ? 3 : 1;
+}
+
 float prepare_field_bound(const struct flat *flat, int field,
                           const matrix *to_unit, const double lo[3],
                           const double hi[3])
@@ -315,31 +392,40 @@ float prepare_field_bound(const struct flat *flat, int field,
     const flat_field *f = &flat->fields[field];
     if (f->kind == FIELD_CONSTANT)
         return f->scale;
-    const flat_grid *g = &flat->grids[f->grid];
     matrix to_index, map;
     for (int i = 0; i < 12; i++)
         to_index.m[i / 4][i % 4] = f->to_index.m[i];
     map = matrix_compose(&to_index, to_unit);
     double a[3], b[3];
     box_image(&map, lo, hi, a, b);
-    int first[3], last[3];
-    bool outside = false;
-    for (int i = 0; i < 3; i++)
-        outside |= sample_range(g, i, a[i], b[i], &first[i], &last[i]);
-    float most = range_bound(flat, g, first, last);
-    return fmaxf(most, outside ? flat->tiles[g->tile] : 0.0f) * f->scale;
+    if (f->kind == FIELD_FUNCTION)
+        return procedure_bound(flat, &flat->procedures[f->grid], a, b);
+    float most = 0.0f;
+    for (int i = 0; i < field_grids(f); i++)
+        most = fmaxf(most, grid_bound(flat, &flat->grids[f->grid + i], a, b));
+    return most * f->scale;
 }
 
 float prepare_field_bound_everywhere(const struct flat *flat, int field)
 {
     const flat_field *f = &flat->fields[field];
-    if (f->kind == FIELD_CONSTANT)
-        return f->scale;
-    const flat_grid *g = &flat->grids[f->grid];
     const int first[3] = {0, 0, 0};
     int last[3];
-    for (int i = 0; i < 3; i++)
-        last[i] = 8 * g->bricks[i] - 1;
-    return fmaxf(range_bound(flat, g, first, last), flat->tiles[g->tile]) *
-           f->scale;
+    float most = 0.0f;
+    if (f->kind == FIELD_CONSTANT)
+        return f->scale;
+    if (f->kind == FIELD_FUNCTION) {
+        const flat_procedure *p = &flat->procedures[f->grid];
+        for (int i = 0; i < 3; i++)
+            last[i] = p->cells[i] - 1;
+        return cells_bound(flat, p, first, last);
+    }
+    for (int k = 0; k < field_grids(f); k++) {
+        const flat_grid *g = &flat->grids[f->grid + k];
+        for (int i = 0; i < 3; i++)
+            last[i] = 8 * g->bricks[i] - 1;
+        most = fmaxf(most, range_bound(flat, g, first, last));
+        most = fmaxf(most, flat->tiles[g->tile]);
+    }
+    return most * f->scale;
 }

@@ -43,16 +43,42 @@ static bool is_grid(const struct flat *f, int field)
     return field >= 0 && f->fields[field].kind == FIELD_GRID;
 }
 
-/* The grid whose bricks become the lattice: the first density, or what an
- * additive fire reads; -1 where all is constant. */
-static int lead_field(const struct flat *f, const flat_medium *m)
+/* Whether it has an index space, in which it varies. */
+static bool has_lattice(const struct flat *f, int field)
+{
+    return field >= 0 && f->fields[field].kind != FIELD_CONSTANT;
+}
+
+/* The first density of a kind, or what an additive fire reads. */
+static int first_of(const struct flat *f, const flat_medium *m,
+                    bool (*is)(const struct flat *f, int field))
 {
     for (int i = 0; i < m->densities; i++)
-        if (is_grid(f, m->density[i]))
+        if (is(f, m->density[i]))
             return m->density[i];
-    if (m->fire && is_grid(f, m->amount))
+    if (m->fire && is(f, m->amount))
         return m->amount;
-    return m->fire && is_grid(f, m->temperature) ? m->temperature : -1;
+    return m->fire && is(f, m->temperature) ? m->temperature : -1;
+}
+
+/* The field whose bricks or cells become the lattice: a grid, or else a
+ * function; -1 where all is constant. */
+static int lead_field(const struct flat *f, const flat_medium *m)
+{
+    int grid = first_of(f, m, is_grid);
+    return grid >= 0 ? grid : first_of(f, m, has_lattice);
+}
+
+/* Bricks of 8^3 samples from the lowest index on. */
+static void field_extent(const struct flat *f, int field, int32_t origin[3],
+                         int32_t bricks[3])
+{
+    bool grid = is_grid(f, field);
+    for (int i = 0; i < 3; i++) {
+        int32_t at = f->fields[field].grid;
+        origin[i] = grid ? f->grids[at].origin[i] : 0;
+        bricks[i] = grid ? f->grids[at].bricks[i] : f->procedures[at].cells[i];
+    }
 }
 
 static matrix affine_matrix(const affine *a)
@@ -66,10 +92,11 @@ static matrix affine_matrix(const affine *a)
 static void field_box(const struct flat *f, int field, double lo[3],
                       double hi[3])
 {
-    const flat_grid *g = &f->grids[f->fields[field].grid];
+    int32_t origin[3], bricks[3];
+    field_extent(f, field, origin, bricks);
     for (int i = 0; i < 3; i++) {
-        lo[i] = g->origin[i] - 1.0;
-        hi[i] = g->origin[i] + 8.0 * g->bricks[i];
+        lo[i] = origin[i] - 1.0;
+        hi[i] = origin[i] + 8.0 * bricks[i];
     }
 }
 
@@ -101,29 +128,30 @@ static bool lattice_extent(struct lattice *l, int lead, struct brume_error *err)
 {
     const struct flat *f = l->flat;
     const flat_medium *m = l->medium;
-    const flat_grid *g = &f->grids[f->fields[lead].grid];
+    int32_t origin[3], bricks[3];
     matrix to_lead = affine_matrix(&f->fields[lead].to_index);
     double lo[3], hi[3];
+    field_extent(f, lead, origin, bricks);
     for (int i = 0; i < 3; i++) {
-        lo[i] = g->origin[i];
-        hi[i] = g->origin[i] + 8.0 * g->bricks[i];
+        lo[i] = origin[i];
+        hi[i] = origin[i] + 8.0 * bricks[i];
     }
     int more[2] = {m->fire && m->additive ? m->amount : -1,
                    m->fire && m->additive ? m->temperature : -1};
     for (int i = 0; i < 2; i++)
-        if (is_grid(f, more[i]) && more[i] != lead)
+        if (has_lattice(f, more[i]) && more[i] != lead)
             include_field(f, &to_lead, more[i], lo, hi);
     double cells = 1.0;
     for (int i = 0; i < 3; i++) {
-        double first = floor((lo[i] - g->origin[i]) / l->side);
-        double count = ceil((hi[i] - g->origin[i]) / l->side) - first;
+        double first = floor((lo[i] - origin[i]) / l->side);
+        double count = ceil((hi[i] - origin[i]) / l->side) - first;
         cells *= count;
         if (cells > (double)MAX_CELLS)
             return brume_fail(err, BRUME_ERR_LIMIT,
                               "a medium's grids lie so far apart that their "
                               "common lattice has over %zu cells",
                               MAX_CELLS);
-        l->origin[i] = g->origin[i] + l->side * (int32_t)first;
+        l->origin[i] = origin[i] + l->side * (int32_t)first;
         l->medium->cells[i] = (int32_t)count;
     }
     return true;
@@ -157,12 +185,25 @@ static float bound_everywhere(const struct lattice *l, int field,
     return prepare_field_bound_everywhere(l->flat, field);
 }
 
+/* What a field is beyond its bricks or cells. */
+static float beyond_all(const struct flat *f, const flat_field *field)
+{
+    float most = 0.0f;
+    if (field->kind == FIELD_FUNCTION)
+        return 0.0f;
+    for (int i = 0; i < (field->colored ? 3 : 1); i++) {
+        const flat_grid *g = &f->grids[field->grid + i];
+        most = fmaxf(most, g->clip ? 0.0f : f->tiles[g->tile]);
+    }
+    return field->scale * most;
+}
+
 /* Beyond the lattice: a grid that the lattice covers is its background. */
 static float bound_beyond(const struct lattice *l, int field,
                           const double lo[3], const double hi[3])
 {
     const struct flat *f = l->flat;
-    if (!is_grid(f, field))
+    if (!has_lattice(f, field))
         return f->fields[field].scale;
     matrix to_index = affine_matrix(&f->fields[field].to_index), back, map;
     matrix to_lattice;
@@ -182,8 +223,7 @@ static float bound_beyond(const struct lattice *l, int field,
             if (q[i] < lo[i] - slack || q[i] > hi[i] + slack)
                 return prepare_field_bound_everywhere(f, field);
     }
-    const flat_grid *g = &f->grids[f->fields[field].grid];
-    return f->fields[field].scale * (g->clip ? 0.0f : f->tiles[g->tile]);
+    return beyond_all(f, &f->fields[field]);
 }
 
 static majorant_cell cell_bound(const struct lattice *l, field_bound *bound,
@@ -317,7 +357,7 @@ static bool make_lattice(const struct prepare *job, struct lattice *l, int lead,
     l->side = 8;
     if (!fill_lattice(job, l, lead, &to_index, err))
         return false;
-    if (!is_thick(l, voxel))
+    if (!is_grid(l->flat, lead) || !is_thick(l, voxel))
         return true;
     l->side = 4;
     return fill_lattice(job, l, lead, &to_index, err);
@@ -409,6 +449,21 @@ static void set_coefficients(const struct prepare *job, flat_medium *m,
     m->g = (float)in->eccentricity;
 }
 
+static bool is_evaluated(const struct flat *f, int field)
+{
+    return field >= 0 && f->fields[field].kind == FIELD_FUNCTION;
+}
+
+static void set_functions(const struct flat *f, flat_medium *m)
+{
+    m->sampled = is_evaluated(f, m->temperature) || is_evaluated(f, m->amount);
+    for (int i = 0; i < m->densities; i++) {
+        const flat_field *field = &f->fields[m->density[i]];
+        m->sampled |= field->kind == FIELD_FUNCTION;
+        m->functions |= field->kind == FIELD_FUNCTION || field->colored;
+    }
+}
+
 static bool add_medium(const struct prepare *job, const struct brume_medium *in,
                        struct brume_error *err)
 {
@@ -427,6 +482,7 @@ static bool add_medium(const struct prepare *job, const struct brume_medium *in,
         add_plane_field(f, &m, m.density[i]);
     add_plane_field(f, &m, m.temperature);
     add_plane_field(f, &m, m.amount);
+    set_functions(f, &m);
     flat_medium *slot = FLAT_EXTEND(f, media, 1, err);
     if (!slot)
         return false;

@@ -207,8 +207,8 @@ static bool add_images(const struct prepare *job, struct brume_error *err)
     return true;
 }
 
-/* The scene's functions go along where an isosurface, a pigment or the sky
- * asks for their values. */
+/* The scene's functions go along where an isosurface, a pigment, the sky or a
+ * field asks for their values. */
 static bool add_functions(const struct prepare *job, const struct assembly *a,
                           struct brume_error *err)
 {
@@ -219,6 +219,8 @@ static bool add_functions(const struct prepare *job, const struct assembly *a,
         needed = needed || a->parts[i].leaf.kind == SOLID_ISOSURFACE;
     for (size_t i = 0; i < s->materials_count; i++)
         needed = needed || s->materials[i].function >= 0;
+    for (size_t i = 0; i < s->fields_count && !job->exact; i++)
+        needed = needed || s->fields[i].kind == BRUME_FIELD_FUNCTION;
     if (!needed)
         return true;
     machine_instruction *code = FLAT_EXTEND(f, code, s->code_count, err);

@@ -87,18 +87,18 @@ static void place_field(struct brume_field *field, const transform *by)
     memcpy(field->transform, by->m, sizeof by->m);
 }
 
-/* A density as a field: one component of a pattern's colour. Its mean stands
- * for a pattern that core cannot do. */
+/* A density as a field, of a pattern's colour or of one number. Its mean
+ * stands for a pattern that core cannot do. */
 static struct brume_field field_of(struct parser *parser,
                                    const struct density *density,
-                                   const transform *by, int component)
+                                   const transform *by, bool colored)
 {
     struct brume_field field;
     transform placing = transform_identity();
 
     memset(&field, 0, sizeof field);
     field.kind = BRUME_FIELD_CONSTANT;
-    field.scale = density->color[component];
+    field.scale = density->color[0];
     field.grid = field.function = -1;
     if (model_density_is_grid(density)) {
         const struct pattern *pattern = density->on.pattern;
@@ -111,7 +111,7 @@ static struct brume_field field_of(struct parser *parser,
         if (field.function >= 0) {
             field.kind = BRUME_FIELD_FUNCTION;
             field.scale = 1;
-            field.component = component;
+            field.component = colored ? BRUME_COMPONENT_COLOR : 0;
             placing = *by;
         } else {
             build_lacks(parser, "densities of some patterns",
@@ -140,12 +140,12 @@ static bool send_fire(struct parser *parser, const struct fire *fire,
     to->reference = fire->reference;
     to->brightness = (enum brume_brightness)fire->brightness;
     to->additive = fire->additive != 0;
-    field = field_of(parser, &fire->temperature, by, 0);
+    field = field_of(parser, &fire->temperature, by, false);
     to->temperature = send_field(parser, &field, err);
     if (to->temperature < 0)
         return false;
     if (fire->has_amount) {
-        field = field_of(parser, &fire->amount, by, 0);
+        field = field_of(parser, &fire->amount, by, false);
         to->amount = send_field(parser, &field, err);
     }
     return !fire->has_amount || to->amount >= 0;
@@ -154,17 +154,18 @@ static bool send_fire(struct parser *parser, const struct fire *fire,
 /* A density that is a constant, as those of patterns that core cannot do,
  * goes into the coefficients. */
 static bool send_densities(struct parser *parser, const struct media *media,
-                           const transform *by, int component,
-                           struct brume_medium *to, struct brume_error *err)
+                           const transform *by, struct brume_medium *to,
+                           struct brume_error *err)
 {
     for (int i = 0; i < media->densities; i++) {
-        struct brume_field field = field_of(parser, &media->density[i], by,
-                                            component);
+        const struct density *density = &media->density[i];
+        struct brume_field field = field_of(parser, density, by,
+                                            density->colored);
         if (field.kind == BRUME_FIELD_CONSTANT) {
             for (int c = 0; c < 3; c++) {
-                to->absorption[c] *= field.scale;
-                to->emission[c] *= field.scale;
-                to->scattering[c] *= field.scale;
+                to->absorption[c] *= density->color[c];
+                to->emission[c] *= density->color[c];
+                to->scattering[c] *= density->color[c];
             }
             continue;
         }
@@ -175,17 +176,15 @@ static bool send_densities(struct parser *parser, const struct media *media,
     return true;
 }
 
-/* Of all channels, or (0 to 2) of one, whose component the densities give. A
- * density's colour scales what the medium does, not the fire in it. */
+/* A density's colour scales what the medium does, not the fire in it. */
 static int send_medium(struct parser *parser, const struct media *media,
-                       const transform *by, int channel,
-                       struct brume_error *err)
+                       const transform *by, struct brume_error *err)
 {
     struct brume_medium to;
 
     memset(&to, 0, sizeof to);
     for (int i = 0; i < 3; i++) {
-        double tint = channel < 0 || channel == i ? media->tint[i] : 0;
+        double tint = media->tint[i];
         to.absorption[i] = media->absorption[i] * tint;
         to.emission[i] = media->emission[i] * tint;
         to.scattering[i] = media->scattering[i] * tint;
@@ -195,11 +194,9 @@ static int send_medium(struct parser *parser, const struct media *media,
     to.extinction = media->extinction;
     for (int i = 0; i < BRUME_MAX_DENSITIES; i++)
         to.density[i] = -1;
-    if (!send_densities(parser, media, by, channel < 0 ? 0 : channel, &to,
-                        err) ||
+    if (!send_densities(parser, media, by, &to, err) ||
         !send_fire(parser, &media->fire, by, &to.fire, err))
         return -1;
-    to.fire.on = to.fire.on && (channel <= 0 || !to.fire.additive);
     struct intern_key key = intern_key(&to, sizeof to);
     int id = sent(parser, SENT_MEDIUM, &key);
     if (id >= 0)
@@ -208,41 +205,20 @@ static int send_medium(struct parser *parser, const struct media *media,
     return remember(parser, SENT_MEDIUM, &key, id);
 }
 
-static bool is_colored(const struct media *media)
-{
-    for (int i = 0; i < media->densities; i++)
-        if (media->density[i].colored)
-            return true;
-    return false;
-}
-
-/* Densities of core have no colour: media whose densities do are three, one a
- * channel. */
 int build_send_interior(struct parser *parser, const struct media *const *media,
                         int count, const transform *by, struct brume_error *err)
 {
     int list[BRUME_MAX_INTERIOR_MEDIA] = {0};
-    int listed = 0;
 
     for (int i = 0; i < count; i++) {
-        bool colored = is_colored(media[i]);
-        for (int c = colored ? 0 : -1; c < (colored ? 3 : 0); c++) {
-            if (listed == BRUME_MAX_INTERIOR_MEDIA) {
-                brume_fail(err, BRUME_ERR_SCENE,
-                           "more than %d media, of which those of coloured "
-                           "densities count as three",
-                           BRUME_MAX_INTERIOR_MEDIA);
-                return -1;
-            }
-            list[listed] = send_medium(parser, media[i], by, c, err);
-            if (list[listed++] < 0)
-                return -1;
-        }
+        list[i] = send_medium(parser, media[i], by, err);
+        if (list[i] < 0)
+            return -1;
     }
-    struct intern_key key = intern_key(list, (size_t)listed * sizeof *list);
+    struct intern_key key = intern_key(list, (size_t)count * sizeof *list);
     int id = sent(parser, SENT_INTERIOR, &key);
     if (id >= 0)
         return id;
-    id = brume_add_interior(parser->out->scene, list, listed, err);
+    id = brume_add_interior(parser->out->scene, list, count, err);
     return remember(parser, SENT_INTERIOR, &key, id);
 }

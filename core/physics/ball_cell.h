@@ -20,7 +20,7 @@ enum { BALL_PAIRS = 16 };
 typedef struct {
     int32_t count;
     int32_t medium[MAX_ACTIVE];
-    float density[MAX_ACTIVE];
+    rgb density[MAX_ACTIVE];
     float thickness;
 } ball_media;
 
@@ -48,11 +48,12 @@ HD void ball_add(const flat_scene *s, ball_media *b, int32_t medium, vec3 x)
         return;
     if (i >= b->count) {
         b->medium[part_place(i)] = medium;
-        b->density[part_place(i)] = 0.0f;
+        b->density[part_place(i)] = rgb_gray(0.0f);
         b->count = i + 1;
     }
     field_point at = field_point_make(s, m->lead, x);
-    b->density[part_place(i)] += medium_density(s, m, &at);
+    rgb *sum = &b->density[part_place(i)];
+    *sum = rgb_add(*sum, medium_density(s, m, &at));
 }
 
 HD void ball_add_point(const flat_scene *s, ball_media *b, vec3 x)
@@ -79,7 +80,7 @@ HD ball_media ball_media_at(const flat_scene *s, vec3 x)
         ball_add_point(s, &b, vec3_mad(x, r, ball_offset(k / 2)));
     }
     for (int i = 0; i < part_bound(b.count); i++) {
-        b.density[i] *= 0.5f / (float)BALL_PAIRS;
+        b.density[i] = rgb_scale(b.density[i], 0.5f / (float)BALL_PAIRS);
         b.thickness += radiance_thickness(s, &s->media[b.medium[i]],
                                           b.density[i]);
     }
@@ -98,7 +99,8 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
         const flat_medium *m = &s->media[b->medium[i]];
         float phase = phase_eval_between(m->phase, m->g, d, wi) *
                       phase_pov_scale(m->phase);
-        sum = rgb_add(sum, rgb_scale(m->sigma_s, b->density[i] * phase));
+        sum = rgb_add(sum, rgb_scale(rgb_mul(m->sigma_s, b->density[i]),
+                                     phase));
     }
     return rgb_scale(sum, light_medium_factor(s) / b->thickness);
 }

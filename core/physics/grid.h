@@ -1,4 +1,4 @@
-/* grid.h - lookup in a flat grid of bricks, and the fields made of it. */
+/* grid.h - lookup in a flat grid of bricks. */
 #ifndef CORE_PHYSICS_GRID_H
 #define CORE_PHYSICS_GRID_H
 #include "core/physics/scene.h"
@@ -53,37 +53,6 @@ HD float grid_lookup(const flat_scene *s, const flat_grid *g, vec3 p)
     return g->nearest ? v[0]
                       : grid_trilinear(v, p.x - (float)x, p.y - (float)y,
                                        p.z - (float)z);
-}
-
-/* A point, and its place in the lattice that the fields around it share. */
-typedef struct {
-    vec3 p;                 /* unit space                                  */
-    vec3 index;
-    int32_t lattice;        /* whose index space; -1: none                 */
-} field_point;
-
-/* `lead` is a field with a grid, or -1. */
-HD field_point field_point_make(const flat_scene *s, int32_t lead, vec3 p)
-{
-    field_point x;
-    x.p = x.index = p;
-    x.lattice = -1;
-    if (lead >= 0) {
-        x.index = affine_point(&s->fields[lead].to_index, p);
-        x.lattice = s->fields[lead].lattice;
-    }
-    return x;
-}
-
-/* Value of a field at a point. */
-HD float field_eval(const flat_scene *s, int field, const field_point *x)
-{
-    const flat_field *f = &s->fields[field];
-    if (f->kind == FIELD_CONSTANT)
-        return f->scale;
-    vec3 index = f->lattice == x->lattice ? x->index
-                                          : affine_point(&f->to_index, x->p);
-    return f->scale * grid_lookup(s, &s->grids[f->grid], index);
 }
 
 #endif

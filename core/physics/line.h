@@ -1,15 +1,22 @@
-/* line.h - absorption and emission along a ray, deterministic.
+/* line.h - absorption and emission along a ray.
  *
  * The ray is cut at the voxel planes of every grid it reads. Between them a
  * trilinear density is a cubic along the ray, which the two-point Gauss rule
  * integrates exactly; the source is taken as constant over each half of the
  * piece, attenuated within it (METHODS.md 1.5, 1.6). Homogeneous media come
- * out in closed form. */
+ * out in closed form.
+ *
+ * A density that is a function has no planes at which it is known: rays
+ * through such media take one sample at a jittered place of each cell of the
+ * majorants and each voxel, more in thick ones. Emission is then unbiased, but
+ * for what half the variance of the optical depth before it makes of the
+ * transmittance: of parts of depth D at most D^2 / 8 each. */
 #ifndef CORE_PHYSICS_LINE_H
 #define CORE_PHYSICS_LINE_H
 #include "core/physics/fmath.h"
 #include "core/physics/glow.h"
 #include "core/physics/radiance.h"
+#include "core/physics/rng.h"
 #include "core/physics/walk.h"
 
 /* The last is the field's. */
@@ -32,6 +39,8 @@ typedef struct {
     float p_dir;            /* see glow_ray_share                          */
     bool emission;          /* the radiance is wanted                      */
     bool scattered;         /* ... and what the field's light gives        */
+    bool sampled;           /* some density is a function                  */
+    float jitter;           /* in [0, 1): place of the next sample         */
     int lattices;
     line_lattice lattice[LINE_LATTICES];
 } line_job;
@@ -115,11 +124,11 @@ HD float line_stop(const line_job *job, float t, float t_end)
 
 /* Radiance per length that the media scatter of the field's light. */
 HD rgb line_scattered(const line_job *job, const flat_medium *m,
-                      const radiance_point *light, float density)
+                      const radiance_point *light, rgb density)
 {
     rgb in = radiance_seen(job->s, light, m->phase, m->g,
                            vec3_scale(job->d, -1.0f));
-    return rgb_mul(in, rgb_scale(m->sigma_s, density));
+    return rgb_mul(in, rgb_mul(m->sigma_s, density));
 }
 
 HD line_point line_at(const line_job *job, const media_walk *w, float t)
@@ -140,13 +149,13 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
         field_point x = lattice_point(job->s, &w->part[i], p, t);
-        float density = medium_density(job->s, m, &x);
-        out.sigma_t = rgb_add(out.sigma_t, rgb_scale(m->sigma_t, density));
+        rgb density = medium_density(job->s, m, &x);
+        out.sigma_t = rgb_add(out.sigma_t, rgb_mul(m->sigma_t, density));
         if (scene_may(MAY_FIELD) && job->s->field.thick)
             out.source = rgb_add(out.source, rgb_scale(ball,
                 radiance_thickness(job->s, m, density)));
         if (scene_may(MAY_FIELD) && job->scattered && !job->s->field.ball &&
-            density > 0.0f && !rgb_is_black(m->sigma_s)) {
+            !rgb_is_black(density) && !rgb_is_black(m->sigma_s)) {
             if (!read)
                 light = radiance_at(job->s, p, true);
             read = true;
@@ -200,6 +209,32 @@ HD bool line_piece_empty(const media_walk *w)
     return true;
 }
 
+/* Optical depth of a stretch, as far as the bounds tell. */
+HD float line_depth(const line_job *job, const media_walk *w, float length)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < walk_parts(w); i++)
+        sum += rgb_max(job->s->media[w->part[i].medium].sigma_t) *
+               w->part[i].bound.density;
+    return sum * length;
+}
+
+/* From t on over `length`, by samples. */
+HD void line_sample(line_job *job, const media_walk *w, float t, float length,
+                    line_integral *out)
+{
+    const float deep = 0.1f, most = 64.0f, golden = 0.61803399f;
+    float parts = hd_min(line_depth(job, w, length) / deep, most);
+    int count = 1 + (int)parts;
+    float part = length / (float)count;
+    for (int i = 0; i < count; i++) {
+        line_point x = line_at(job, w, t + part * ((float)i + job->jitter));
+        line_half(out, &x, part);
+        job->jitter += golden;
+        job->jitter -= job->jitter >= 1.0f ? 1.0f : 0.0f;
+    }
+}
+
 HD void line_piece(line_job *job, const media_walk *w,
                    line_integral *out)
 {
@@ -208,6 +243,11 @@ HD void line_piece(line_job *job, const media_walk *w,
     while (t < w->t_end) {
         line_advance(job, t);
         float stop = line_stop(job, t, w->t_end), length = stop - t;
+        if (scene_may(MAY_FUNCTIONS) && job->sampled) {
+            line_sample(job, w, t, length, out);
+            t = stop;
+            continue;
+        }
         line_point a = line_at(job, w, t + node * length);
         line_point b = line_at(job, w, stop - node * length);
         line_half(out, &a, 0.5f * length);
@@ -216,12 +256,18 @@ HD void line_piece(line_job *job, const media_walk *w,
     }
 }
 
-/* Adds the ray from t0 to t1 (finite) through the
- * media of `set` to `out`; d of unit length. Call with out zeroed first; it
- * can be continued over further segments of the same ray. */
+HD float line_jitter(const flat_scene *s, rng *random)
+{
+    return s->procedures_count > 0 ? rng_float(random) : 0.5f;
+}
+
+/* Adds the ray from t0 to t1 (finite) through the media of `set` to `out`; d
+ * of unit length; jitter in [0, 1). Call with out zeroed first; it can be
+ * continued over further segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
-                       bool emission, bool scattered, line_integral *out)
+                       bool emission, bool scattered, float jitter,
+                       line_integral *out)
 {
     media_walk w;
     walk_begin(s, &w, set, true, o, d, t0, t1);
@@ -236,8 +282,13 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
     job.scattered = scene_may(MAY_FIELD) && scattered &&
                     s->field.numbers > 0;
     job.lattices = 0;
-    for (int i = 0; i < walk_parts(&w); i++)
-        line_add_lattices(&job, &s->media[w.part[i].medium]);
+    job.jitter = jitter;
+    job.sampled = false;
+    for (int i = 0; i < walk_parts(&w); i++) {
+        const flat_medium *m = &s->media[w.part[i].medium];
+        line_add_lattices(&job, m);
+        job.sampled = job.sampled || m->sampled != 0;
+    }
     if (job.scattered)
         line_add_field(&job);
     do {

@@ -9,7 +9,7 @@
 /* What comes through of light over `distance` from o along wi: surfaces by
  * their transparency, media exactly. */
 HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
-                   float distance)
+                     float distance, float jitter)
 {
     bvh_ray r = bvh_ray_make(o, wi);
     ray_hit after = hit_start(0.0f);
@@ -23,7 +23,8 @@ HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
             left = rgb_mul(left, shadow_surface(s, &r, &h));
         if (rgb_is_black(left))
             return left;
-        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false, &line);
+        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false,
+                       jitter, &line);
         if (h.shape < 0)
             return rgb_mul(left, line_transmittance(&line));
         shadow_cross(s, &h, set);
@@ -59,7 +60,8 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
     rgb in = l.color;
     if (s->lights[light].shadows)
         in = rgb_mul(in, lit_cell_left(s, &set, x, l.shadow_wi,
-                                     l.shadow_distance));
+                                     l.shadow_distance,
+                                     line_jitter(s, &p->random)));
     rgb seen = rgb_gray(0.0f);
     if (f->eye >= 0)
         seen = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));

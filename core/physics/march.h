@@ -1,5 +1,6 @@
 /* march.h - the straight line from the eye: what media emit toward it, the
- * background behind them, and how opaque all is. Deterministic. */
+ * background behind them, and how opaque all is. Deterministic, but for media
+ * whose density is a function. */
 #ifndef CORE_PHYSICS_MARCH_H
 #define CORE_PHYSICS_MARCH_H
 #include "core/physics/line.h"
@@ -17,17 +18,18 @@ typedef struct {
 /* Adds the next segment; its emission passes the surfaces before it. */
 HD void march_segment(const flat_scene *s, const container_set *inside,
                       vec3 o, vec3 d, float t0, float t1, rgb pass,
-                      line_integral *line, rgb *radiance)
+                      float jitter, line_integral *line, rgb *radiance)
 {
     line->radiance = rgb_gray(0.0f);
     line_integrate(s, inside, o, d, t0, t1, 0.0f, !s->field.births, true,
-                   line);
+                   jitter, line);
     *radiance = rgb_add(*radiance, rgb_mul(line->radiance, pass));
 }
 
-/* Along the unit vector d from o, whose containers are `inside`. */
+/* Along the unit vector d from o, whose containers are `inside`; the jitter,
+ * in [0, 1), is for functions (line.h). */
 HD march_result march_line(const flat_scene *s, const container_set *inside,
-                           vec3 o, vec3 d)
+                           vec3 o, vec3 d, float jitter)
 {
     march_result out;
     out.radiance = out.background = rgb_gray(0.0f);
@@ -40,7 +42,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
     ray_hit after = hit_start(0.0f);
     for (;;) {
         ray_hit h = bvh_nearest(s, &r, &after, s->far);
-        march_segment(s, &set, o, d, after.t, h.t, pass, &line,
+        march_segment(s, &set, o, d, after.t, h.t, pass, jitter, &line,
                       &out.radiance);
         if (h.shape < 0)
             break;

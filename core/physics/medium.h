@@ -3,19 +3,29 @@
  * Coefficients are per unit-space length; `source` is radiance per length. */
 #ifndef CORE_PHYSICS_MEDIUM_H
 #define CORE_PHYSICS_MEDIUM_H
-#include "core/physics/grid.h"
+#include "core/physics/field.h"
 
 enum { BRIGHTNESS_PHYSICAL, BRIGHTNESS_NORMALIZED, BRIGHTNESS_CONSTANT,
        BRIGHTNESS_TOTAL };
 
-/* Product of the medium's density fields. */
-HD float medium_density(const flat_scene *s, const flat_medium *m,
-                        const field_point *x)
+/* Product of the medium's density fields: of functions a colour. */
+HD rgb medium_density(const flat_scene *s, const flat_medium *m,
+                      const field_point *x)
 {
     float d = 1.0f;
-    for (int i = 0; i < m->densities && d != 0.0f; i++)
-        d *= field_eval(s, m->density[i], x);
-    return hd_min(d, m->densest);
+    rgb c = rgb_gray(1.0f);
+    for (int i = 0; i < m->densities && d != 0.0f; i++) {
+        const flat_field *f = &s->fields[m->density[i]];
+        if (field_is_function(f))
+            c = rgb_mul(c, field_color(s, f, x));
+        else
+            d *= field_plain(s, f, x);
+    }
+    if (!scene_may(MAY_FUNCTIONS) || !m->functions)
+        return rgb_gray(hd_min(d, m->densest));
+    c = rgb_scale(c, d);
+    return rgb_make(hd_min(c.r, m->densest), hd_min(c.g, m->densest),
+                    hd_min(c.b, m->densest));
 }
 
 /* What a colour of Planck's law is divided by, so that its size is what the
@@ -47,9 +57,9 @@ HD rgb fire_color(const flat_scene *s, const flat_medium *m, float kelvin)
 }
 
 HD rgb fire_source(const flat_scene *s, const flat_medium *m,
-                   const field_point *x, float density)
+                   const field_point *x, rgb density)
 {
-    if (!m->additive && density == 0.0f)
+    if (!m->additive && rgb_is_black(density))
         return rgb_gray(0.0f);
     float amount = m->amount >= 0 ? field_eval(s, m->amount, x) : 1.0f;
     if (amount == 0.0f)
@@ -57,15 +67,15 @@ HD rgb fire_source(const flat_scene *s, const flat_medium *m,
     float kelvin = m->kelvin_offset +
                    m->kelvin_scale * field_eval(s, m->temperature, x);
     rgb c = rgb_scale(fire_color(s, m, kelvin), amount);
-    return m->additive ? c : rgb_mul(c, rgb_scale(m->sigma_a, density));
+    return m->additive ? c : rgb_mul(c, rgb_mul(m->sigma_a, density));
 }
 
 /* Radiance per length that the medium emits at x, where its density is
  * `density`. */
 HD rgb medium_source(const flat_scene *s, const flat_medium *m,
-                     const field_point *x, float density)
+                     const field_point *x, rgb density)
 {
-    rgb q = rgb_scale(m->emission, density);
+    rgb q = rgb_mul(m->emission, density);
     return m->fire ? rgb_add(q, fire_source(s, m, x, density)) : q;
 }
 

@@ -146,7 +146,7 @@ HD rgb path_scattered(const flat_scene *s, const path_state *p, float t,
             const flat_medium *m = &s->media[
                 s->interior_media[s->interiors[interior].first + k]];
             field_point at = field_point_make(s, m->lead, x);
-            rgb sigma = rgb_scale(m->sigma_s, medium_density(s, m, &at));
+            rgb sigma = rgb_mul(m->sigma_s, medium_density(s, m, &at));
             float phase = phase_eval_between(m->phase, m->g, p->d, wi) *
                           phase_pov_scale(m->phase);
             *sigma_s += rgb_mean(sigma);
@@ -343,7 +343,7 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
 /* Russian roulette on the throughput; false ends the path. */
 HD bool path_survives(path_state *p)
 {
-    float throughput = rgb_max(p->beta) / rgb_mean(p->r_u);
+    float throughput = rgb_size(p->beta) / rgb_mean(p->r_u);
     if (!(throughput > 0.0f))
         return false;
     if (throughput >= 0.25f)

@@ -72,12 +72,12 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
         field_point at = lattice_point(s, &w->part[i], x, t);
-        float density = medium_density(s, m, &at);
+        rgb density = medium_density(s, m, &at);
         p->count->lookups++;
-        out->sigma_s[i] = rgb_scale(m->sigma_s, density);
+        out->sigma_s[i] = rgb_mul(m->sigma_s, density);
         out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
-        out->all_a = rgb_add(out->all_a, rgb_scale(m->sigma_a, density));
-        out->all_t = rgb_add(out->all_t, rgb_scale(m->sigma_t, density));
+        out->all_a = rgb_add(out->all_a, rgb_mul(m->sigma_a, density));
+        out->all_t = rgb_add(out->all_t, rgb_mul(m->sigma_t, density));
         if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
             m->uniform || s->field.births)
             continue;
@@ -137,7 +137,7 @@ HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
         const flat_medium *m = &s->media[w->part[i].medium];
         if (scene_may(MAY_EMISSION) && m->uniform && m->emits)
             sum = rgb_add(sum, medium_source(s, m, &anywhere,
-                                             m->outside.density));
+                                             rgb_gray(m->outside.density)));
     }
     return sum;
 }
@@ -155,10 +155,10 @@ HD void path_gather(path_state *p, rgb source, rgb majorant, float distance)
         rgb_scale(value, 1.0f / rgb_mean(rgb_mul(p->r_u, ratio))));
 }
 
-HD int path_null(path_state *p, const path_point *at, rgb majorant)
+HD int path_null(path_state *p, const path_point *at, rgb drawn, rgb majorant)
 {
-    rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
     rgb chance = rgb_sub(majorant, drawn);
+    chance = rgb_make(fabsf(chance.r), fabsf(chance.g), fabsf(chance.b));
     float driver = rgb_get(chance, p->driver);
     if (!(driver > 0.0f))
         return PATH_ENDED;      /* density 0: drawn by rounding only */
@@ -169,6 +169,27 @@ HD int path_null(path_state *p, const path_point *at, rgb majorant)
     return PATH_THROUGH;
 }
 
+/* Where a majorant does not hold, events are drawn in proportion to their
+ * size, and nulls, of less than nothing, change the path's sign: unbiased
+ * [Galtier et al. 2013]. The factor is what all sizes add up to over the
+ * majorant. */
+HD float path_excess(float drawn, float majorant)
+{
+    return hd_max(2.0f * drawn / majorant - 1.0f, 1.0f);
+}
+
+HD_APART float path_exceed(path_state *p, rgb drawn, rgb majorant)
+{
+    rgb k = rgb_make(path_excess(drawn.r, majorant.r),
+                     path_excess(drawn.g, majorant.g),
+                     path_excess(drawn.b, majorant.b));
+    float driver = rgb_get(k, p->driver);
+    p->beta = rgb_scale(p->beta, driver);
+    p->r_u = rgb_mul(p->r_u, rgb_make(driver / k.r, driver / k.g,
+                                      driver / k.b));
+    return driver;
+}
+
 /* What happens at a tentative collision. On PATH_SCATTERED *which is the
  * medium's place in the walk. */
 HD int path_collide(path_state *p, const media_walk *w,
@@ -176,8 +197,11 @@ HD int path_collide(path_state *p, const media_walk *w,
 {
     float m = rgb_get(majorant, p->driver);
     rgb drawn = rgb_add(at->all_a, rgb_scale(at->all_s, p->boost));
-    if (rgb_get(drawn, p->driver) > m * 1.00001f)
+    rgb over = rgb_sub(drawn, rgb_scale(majorant, 1.00001f));
+    if (rgb_max(over) > 0.0f) {
         p->count->majorant_exceeded++;
+        m *= path_exceed(p, drawn, majorant);
+    }
     float x = rng_fine(&p->random) * m;
     for (int i = 0; i < walk_parts(w); i++) {
         float sigma = rgb_get(at->sigma_s[i], p->driver);
@@ -192,7 +216,7 @@ HD int path_collide(path_state *p, const media_walk *w,
     }
     if (x < rgb_get(at->all_a, p->driver))
         return PATH_ENDED;
-    return path_null(p, at, majorant);
+    return path_null(p, at, drawn, majorant);
 }
 
 /* How far tentative collisions outnumber the majorant's. With a boost they
@@ -257,9 +281,9 @@ HD float path_middle(const flat_scene *s, const path_state *p,
         if (w->part[i].bound.density == 0.0f)
             continue;
         field_point at = lattice_point(s, &w->part[i], x, t);
-        float density = medium_density(s, m, &at);
-        sum += rgb_max(m->sigma_s) * density;
-        *all += rgb_max(m->sigma_t) * density;
+        rgb density = medium_density(s, m, &at);
+        sum += rgb_max(rgb_mul(m->sigma_s, density));
+        *all += rgb_max(rgb_mul(m->sigma_t, density));
     }
     return sum;
 }
@@ -323,7 +347,7 @@ HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
     line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
     line.radiance = rgb_gray(0.0f);
     line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
-                   false, &line);
+                   false, line_jitter(s, &p->random), &line);
     path_add(p, rgb_mul(p->beta, line.radiance));
     p->beta = rgb_mul(p->beta, line_transmittance(&line));
     return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;

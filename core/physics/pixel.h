@@ -60,10 +60,10 @@ HD void pixel_sum(double out[3], rgb c)
 }
 
 HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
-                   const container_set *set, uint32_t sample,
+                   const container_set *set, uint32_t sample, float along,
                    film_pixel *out, track_counters *count)
 {
-    march_result m = march_line(s, set, o, d);
+    march_result m = march_line(s, set, o, d, along);
     if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
         count->rejected++;
         return;
@@ -133,7 +133,7 @@ HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
         if (!pixel_has_line(i))
             continue;
         pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
-        pixel_line(s, o, d, &set, i, out, count);
+        pixel_line(s, o, d, &set, i, along, out, count);
     }
 }
 

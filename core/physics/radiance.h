@@ -61,9 +61,10 @@ HD vec3 radiance_middle(const flat_scene *s, uint64_t brick, int i)
 /* By what a field of balls is spread over a medium: what gives light there in
  * proportion to the density. */
 HD float radiance_thickness(const flat_scene *s, const flat_medium *m,
-                            float density)
+                            rgb density)
 {
-    return density * rgb_mean(s->field.births ? m->bound : m->sigma_s);
+    return rgb_mean(rgb_mul(density, s->field.births ? m->bound
+                                                     : m->sigma_s));
 }
 
 HD void radiance_add_rgb(int64_t *sum, rgb value)

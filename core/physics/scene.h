@@ -14,7 +14,7 @@
 #include "core/physics/may.h"
 #include "core/physics/vec.h"
 
-enum { FIELD_CONSTANT, FIELD_GRID };
+enum { FIELD_CONSTANT, FIELD_GRID, FIELD_FUNCTION };
 enum { BRICK_SIDE = 9, BRICK_FLOATS = 729 };    /* 8^3 samples + upper apron */
 enum { MAX_DENSITIES = 4, MAX_PLANES = 6 };
 /* Media, and shapes with media, at one place that are followed. */
@@ -34,17 +34,33 @@ typedef struct {
     float clip_min[3], clip_max[3];
 } flat_grid;
 
-/* A scalar function of position. */
+/* A field that is evaluated where it is asked for. Its index space has
+ * PROCEDURE_SIDE units to a side of the cells over which its bounds are
+ * known; beyond them it is 0. */
+enum { PROCEDURE_SIDE = 8 };
+
 typedef struct {
-    int32_t kind, grid;
+    int32_t function;
+    int32_t component;      /* the result that counts; -1: three, a colour */
+    float origin[3], step[3];   /* index space to the function's           */
+    int32_t cells[3];
+    uint64_t bound;         /* first of the host's bounds                  */
+} flat_procedure;
+
+/* A function of position: a scalar, or a colour of a function. */
+typedef struct {
+    int32_t kind;
+    int32_t grid;           /* of grids, or of procedures                  */
+    int32_t colored;        /* 1: a colour; of grids, three in a row       */
     float scale;            /* a constant's value                          */
-    affine to_index;        /* unit space to the grid's index space        */
+    affine to_index;        /* unit space to the index space of those      */
     int32_t lattice;        /* the first field with the same to_index      */
 } flat_field;
 
 /* Bounds of a medium over one cell of its majorant lattice. */
 typedef struct {
-    float density;          /* >= the density anywhere in the cell         */
+    float density;          /* >= the density anywhere in the cell; of a
+                               function as far as samples tell             */
     float rate;             /* emission samples per length; 0: none emitted */
 } majorant_cell;
 
@@ -61,6 +77,9 @@ typedef struct {
                                must differ from one event to the next      */
     int32_t uniform;        /* 1: no lattice, `outside` is everywhere      */
     int32_t emits;
+    int32_t functions;      /* 1: some density is field_is_function        */
+    int32_t sampled;        /* 1: some field is evaluated: line integrals
+                               take samples                                */
     int32_t planes, plane_field[MAX_PLANES];    /* fields whose voxel planes
                                differ: an exact line integral stops at them */
     int32_t fire;           /* 1: the members below hold                   */
@@ -257,6 +276,7 @@ typedef struct {
     X(int32_t, slots)                                                         \
     X(float, voxels)                                                          \
     X(float, tiles)                                                           \
+    X(flat_procedure, procedures)                                             \
     X(flat_field, fields)                                                     \
     X(flat_medium, media)                                                     \
     X(majorant_cell, cells)                                                   \

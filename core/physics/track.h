@@ -62,12 +62,13 @@ HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
         if (m->uniform || w->part[i].bound.density == 0.0f)
             continue;
         field_point x = lattice_point(s, &w->part[i], p, t);
-        sum = rgb_add(sum, rgb_scale(m->sigma_t, medium_density(s, m, &x)));
+        sum = rgb_add(sum, rgb_mul(m->sigma_t, medium_density(s, m, &x)));
     }
     return sum;
 }
 
-/* One tentative collision; false when the product is dead. */
+/* One tentative collision; false when the product is dead. Beyond a majorant
+ * that does not hold it changes its sign: still unbiased. */
 HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
                       float t, float majorant, rng *r, rgb *product,
                       track_counters *c)
@@ -78,7 +79,7 @@ HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
         c->majorant_exceeded++;
     rgb keep = rgb_sub(rgb_gray(1.0f), rgb_scale(sigma, 1.0f / majorant));
     *product = rgb_mul(*product, keep);
-    float left = rgb_max(*product);
+    float left = rgb_size(*product);
     if (left >= 0.1f)
         return true;
     if (!(left > 0.0f))

@@ -130,6 +130,12 @@ HD float rgb_min(rgb a)
     return hd_min(a.r, hd_min(a.g, a.b));
 }
 
+/* The size of its largest component. */
+HD float rgb_size(rgb a)
+{
+    return rgb_max(rgb_make(fabsf(a.r), fabsf(a.g), fabsf(a.b)));
+}
+
 HD float rgb_mean(rgb a)
 {
     return (a.r + a.g + a.b) * (1.0f / 3.0f);
