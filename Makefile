@@ -186,7 +186,7 @@ format:
 	clang-format -i $$(git ls-files '*.c' '*.cc' '*.cu')
 
 # The headers lie in one folder: #include <brume/brume.h>.
-HEADERS := core/brume.h core/brume_function.h core/particles.h \
+HEADERS := core/brume.h core/brume_film.h core/brume_function.h core/particles.h \
     core/volume_photons.h lib/error.h lib/grid.h lib/mesh.h
 VERSION  = $(shell sed -n 's/^\#define BRUME_VERSION "\(.*\)"/\1/p' core/brume.h)
 ROOT     = $(DESTDIR)$(PREFIX)

@@ -492,4 +492,6 @@ BRUME_API bool brume_render(brume_scene *scene,
                             struct brume_error *err);
 BRUME_API void brume_frame_free(struct brume_frame *frame);
 
+#include "core/brume_film.h"
+
 #endif

@@ -200,7 +200,7 @@ static bool check_memory(const struct frame_job *j, const struct flat *flat,
                          struct brume_error *err)
 {
     uint64_t bytes = flat_bytes(flat) + radiance_sum_bytes(flat) +
-                     film_pixels(&j->film) * sizeof(film_pixel);
+                     film_pixels(&j->film) * sizeof(film_pixel) + j->held;
     j->out->stats.bytes = bytes;
     if (j->options->memory == 0 || bytes <= j->options->memory)
         return true;

@@ -14,6 +14,7 @@ struct frame_job {
     void *state;            /* of the backend, while it is open        */
     double start, sampling; /* seconds of the clock                    */
     double spent;           /* before the picture was begun            */
+    uint64_t held;          /* bytes that a film holds besides         */
     double error;           /* aimed at, 0: none                       */
     uint32_t most;          /* samples                                 */
     uint32_t pass;          /* samples of the current pass             */

@@ -165,6 +165,25 @@ static const char *photon_reason(const struct flat *f,
                                         : "nothing lights the media";
 }
 
+/* Bytes of the fields that are kept while one is filtered. */
+static uint64_t ring_bytes(const struct flat *f,
+                           const struct brume_options *options)
+{
+    return (uint64_t)(2 * brume_film_reach(options) + 1) *
+           (f->radiance_count * sizeof *f->radiance +
+            f->radiance_slots_count * sizeof *f->radiance_slots);
+}
+
+static const char *filter_reason(const struct brume_options *options,
+                                 const struct stages *s)
+{
+    if (!s->photons)
+        return "there is no field of scattered light";
+    return brume_film_reach(options) > 0
+               ? "the field is a mean over frames of the film"
+               : "a picture alone, or temporal is 1";
+}
+
 static const char *single_reason(const struct flat *f, const struct stages *s)
 {
     if (s->cells)
@@ -342,6 +361,8 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               f->radiance_count * sizeof *f->radiance +
                   f->radiance_slots_count * sizeof *f->radiance_slots,
               reason);
+    add_stage(plan, "filter", s.photons && brume_film_reach(options) > 0,
+              ring_bytes(f, options), filter_reason(options, &s));
     add_stage(plan, "march", s.march, pixels * sizeof(film_pixel),
               "opacity, depth, background and emission toward the eye");
     add_stage(plan, "single", s.single, 0, single_reason(f, &s));

@@ -14,6 +14,7 @@ struct layout {
     struct flat *flat;
     const struct brume_photon_options *options;
     bool seen; /* only what the eye can see is asked for  */
+    bool snap; /* other frames shall have the same cells  */
     radiance_lattice field;
 };
 
@@ -203,12 +204,35 @@ static uint64_t number_bricks(const struct layout *l, int32_t *slots)
     return count;
 }
 
+/* Bricks that begin at multiples of their side in the scene's space. */
+static void snap_axis(struct layout *l, int i, double side)
+{
+    const struct flat *f = l->flat;
+    double brick = 8.0 * side / f->unit, slack = 1e-4 * brick;
+    double lo = (double)f->view.reach.lo[i] / f->unit + f->centre[i];
+    double hi = (double)f->view.reach.hi[i] / f->unit + f->centre[i];
+    double first = floor((lo + slack) / brick);
+    double count = fmax(ceil((hi - slack) / brick - first), 1.0);
+    l->field.bricks[i] = (int32_t)count;
+    l->field.origin[i] = (float)((first * brick - f->centre[i]) * f->unit);
+}
+
+/* The next of four sides to an octave, in the scene's space. */
+static double snap_side(const struct flat *f, double side)
+{
+    return exp2(ceil(4.0 * log2(side / f->unit) - 1e-6) / 4.0) * f->unit;
+}
+
 /* The lattice with cells of that side around the middle of the media. */
 static void set_cells(struct layout *l, double side)
 {
     const scene_reach *r = &l->flat->view.reach;
     l->field.side = (float)side;
     for (int i = 0; i < 3; i++) {
+        if (l->snap) {
+            snap_axis(l, i, side);
+            continue;
+        }
         double extent = (double)(r->hi[i] - r->lo[i]);
         double bricks = fmax(ceil(extent / side / 8.0 * 0.9999), 1.0);
         l->field.bricks[i] = (int32_t)bricks;
@@ -251,6 +275,9 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
     }
     double side = l.options->spacing > 0.0 ? l.options->spacing * flat->unit
                                            : first_side(flat);
+    l.snap = brume_film_reach(options) > 0;
+    if (l.snap)
+        side = snap_side(flat, side);
     if (l.field.births && !l.field.ball)
         return brume_fail(err, BRUME_ERR_USAGE,
                           "emission by photons needs gather ball");

@@ -26,6 +26,9 @@ enum brume_emission {           /* of media                                 */
     BRUME_EMISSION_LINE,        /* exact along the eye's rays               */
     BRUME_EMISSION_PHOTONS      /* births count as events; with ball only   */
 };
+/* The most frames that a mean over time is taken of: 8 on each side. */
+enum { BRUME_MAX_TAPS = 17, BRUME_MAX_REACH = BRUME_MAX_TAPS / 2 };
+
 struct brume_photon_options {
     uint64_t count;             /* emitted; 0: BRUME_DEFAULT_PHOTONS        */
     enum brume_gather gather;
@@ -34,9 +37,15 @@ struct brume_photon_options {
     double radius;              /* of the ball, scene units; 0: two cells   */
     double spacing;             /* of cells, scene units; 0: chosen         */
     bool everywhere;            /* also cells that the eye cannot see       */
+    /* Of films (brume_film.h): the field is a mean over so many frames, an odd
+     * number, with these weights, the middle one the frame's own; 0 or 1: of
+     * each frame alone. Their sum need not be 1. */
+    int taps;
+    double weight[BRUME_MAX_TAPS];
 };
 #define BRUME_PHOTONS_INIT                                                    \
-    {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0, false}
+    {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
+     false, 0, {0}}
 
 /* Photons of a frame. Power in units of the mean photon's, means of the
  * channels: emitted + units = media + surfaces + walls + escaped + roulette
@@ -56,7 +65,8 @@ struct brume_photon_stats {
     double dropped;             /* of photons with more than 65536 events  */
     uint64_t cells;             /* of the field                            */
     uint64_t bytes;             /* of the field, its sums included         */
-    double seconds;
+    uint64_t ring;              /* bytes of fields kept for the filter     */
+    double seconds, seconds_filter;
 };
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { PHOTONS_PRESET = 1 };
+enum { PHOTONS_PRESET = 1, PHOTONS_TEMPORAL = 2 };
 
 static const char *const gather_words[] = {"tally", "ball", NULL};
 static const char *const single_words[] = {"ray", "field", NULL};
@@ -22,6 +22,8 @@ static const struct param photons_params[] = {
     PARAM_WORDS("emission", emission_words, 0, struct volume_photons, emission),
     NUMBER(radius, PARAM_FLOAT, 0, INFINITY, PARAM_ABOVE),
     NUMBER(field_spacing, PARAM_FLOAT, 0, INFINITY, PARAM_ABOVE),
+    PARAM_ROW("temporal", PARAM_INTEGER, 0, 1, BRUME_MAX_TAPS, 0,
+              PHOTONS_TEMPORAL, struct volume_photons, temporal),
     PARAM_ANY("frustum", PARAM_SWITCH, 1, 0, struct volume_photons, frustum),
     {0}};
 
@@ -34,14 +36,20 @@ static void open_photons(struct parser *parser, struct frame *frame)
     frame->node = &globals->volume_photons;
 }
 
-/* What is written after it still counts. */
+/* What is written after a preset still counts. */
 static void set_photons(struct parser *parser, struct frame *frame,
                         const struct param *row, struct location at)
 {
+    struct brume_photon_options published;
     struct volume_photons *to = frame->node;
 
-    (void)parser;
-    (void)at;
+    if (row->given == PHOTONS_TEMPORAL) {
+        to->weights = 0;
+        if (!brume_film_taps(&published, to->temporal))
+            parser_mistake(parser, at,
+                           "weights of 1, 3 and 5 frames are known; others "
+                           "are written out: temporal { ... }");
+    }
     if (row->given != PHOTONS_PRESET)
         return;
     to->gather = BRUME_GATHER_BALL;
@@ -60,6 +68,71 @@ const struct statement build_statement_volume_photons = {
     .set = set_photons,
 };
 
+/* ---- weights ------------------------------------------------------------ */
+
+static void open_temporal(struct parser *parser, struct frame *frame)
+{
+    struct volume_photons *to = &parser->builder->globals.volume_photons;
+
+    to->weights = 0;
+    frame->node = to;
+}
+
+static void take_weight(struct parser *parser, struct frame *frame,
+                        const struct value *number, struct location at)
+{
+    struct volume_photons *to = frame->node;
+
+    if (number->kind != VALUE_NUMBER || number->terms != 1 ||
+        !(number->v[0] >= 0) || !(number->v[0] <= 1e6))
+        parser_mistake(parser, at, "a weight is a number from 0 to 1e6");
+    else if (to->weights == BRUME_MAX_TAPS)
+        parser_mistake(parser, at, "there are more than %d weights",
+                       BRUME_MAX_TAPS);
+    else
+        to->weight[to->weights++] = number->v[0];
+}
+
+/* Where a film ends the frame's own weight may be all that is left. */
+static void close_temporal(struct parser *parser, struct frame *frame,
+                           struct location at)
+{
+    struct volume_photons *to = frame->node;
+
+    if (to->weights % 2 == 0)
+        parser_mistake(parser, at,
+                       "weights are of an odd number of frames, the middle "
+                       "one the frame's own; there are %d",
+                       to->weights);
+    else if (!(to->weight[to->weights / 2] > 0))
+        parser_mistake(parser, at, "the frame's own weight is 0");
+    to->temporal = to->weights;
+}
+
+static const enum build_kind in_photons[] = {BUILD_VOLUME_PHOTONS, BUILD_KINDS};
+static const struct param no_params[] = {{0}};
+
+const struct statement build_statement_temporal = {
+    .word = "temporal",
+    .within = in_photons,
+    .params = no_params,
+    .open = open_temporal,
+    .argument = take_weight,
+    .close = close_temporal,
+};
+
+static void set_taps(const struct volume_photons *said,
+                     struct brume_photon_options *to)
+{
+    if (said->weights == 0) {
+        brume_film_taps(to, said->temporal);
+        return;
+    }
+    to->taps = said->weights;
+    for (int i = 0; i < to->taps; i++)
+        to->weight[i] = said->weight[i];
+}
+
 void build_photons_finish(struct parser *parser)
 {
     const struct globals *globals = &parser->builder->globals;
@@ -75,4 +148,5 @@ void build_photons_finish(struct parser *parser)
     to->radius = said->radius;
     to->spacing = said->field_spacing;
     to->everywhere = !said->frustum;
+    set_taps(said, to);
 }

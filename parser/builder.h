@@ -59,7 +59,7 @@
     X(SKY_SPHERE, sky_sphere) X(SPLINE, spline)                               \
     X(GLOBAL_SETTINGS, global_settings) X(TRANSPORT, transport)               \
     X(PHOTONS, photons) X(RADIOSITY, radiosity)                               \
-    X(VOLUME_PHOTONS, volume_photons)                                         \
+    X(VOLUME_PHOTONS, volume_photons) X(TEMPORAL, temporal)                   \
     X(GLOBAL_SUBSURFACE, global_subsurface) X(DEFAULT, default)
 
 enum build_kind {
@@ -216,6 +216,9 @@ struct volume_photons {
     double count, radius, field_spacing;
     int preset, gather, single, emission;
     bool frustum;
+    int temporal;               /* frames, 0: not said                     */
+    int weights;                /* that were written out, 0: the published */
+    double weight[BRUME_MAX_TAPS];
 };
 
 struct globals {

@@ -458,6 +458,7 @@ const struct keyword keyword_table[] = {
     {"tanh", TOK_NUMBER_FUNCTION, KEYWORD_RESERVED},
     {"target", TOK_WORD, KEYWORD_RESERVED},
     {"temperature", TOK_WORD, KEYWORD_EXTENSION},
+    {"temporal", TOK_WORD, KEYWORD_EXTENSION},
     {"text", TOK_WORD, KEYWORD_RESERVED},
     {"texture", TOK_TEXTURE, KEYWORD_RESERVED},
     {"texture_list", TOK_WORD, KEYWORD_RESERVED},

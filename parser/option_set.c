@@ -439,6 +439,48 @@ bool set_stream_file(struct setting *s)
     return (*file = copy_value(s, s->value));
 }
 
+static bool take_taps(struct options *o, int taps)
+{
+    struct brume_photon_options published = BRUME_PHOTONS_INIT;
+    if (!brume_film_taps(&published, taps))
+        return false;
+    memcpy(o->weight, published.weight, sizeof o->weight);
+    o->taps = taps;
+    return true;
+}
+
+/* An odd number of weights, the middle one above 0. */
+static bool read_weights(const char *text, struct options *o)
+{
+    char *end;
+    for (o->taps = 0; o->taps < BRUME_MAX_TAPS; text = end + 1) {
+        double weight = strtod(text, &end);
+        if (end == text || !(weight >= 0) || !(weight <= 1e6))
+            return false;
+        o->weight[o->taps++] = weight;
+        if (*end == '\0')
+            return o->taps % 2 == 1 && o->weight[o->taps / 2] > 0;
+        if (*end != ',')
+            return false;
+    }
+    return false;
+}
+
+bool set_temporal(struct setting *s)
+{
+    double taps;
+    if (strchr(s->value, ','))
+        return read_weights(s->value, s->options) ||
+               setting_error(s,
+                             "'%s' is no odd number of weights, up to %d, the "
+                             "middle one above 0",
+                             s->value, BRUME_MAX_TAPS);
+    return (parse_number(s->value, &taps) && taps == (int)taps &&
+            take_taps(s->options, (int)taps)) ||
+           setting_error(s, "'%s' is neither 1, 3 or 5 frames nor weights",
+                         s->value);
+}
+
 bool set_shard(struct setting *s)
 {
     return shard_read(s->value, &s->options->shard) ||

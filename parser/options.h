@@ -83,6 +83,8 @@ struct options {
     enum brume_tree tree;
     int tree_stack;
     int preset;                     /* 1: paper                            */
+    int taps;                       /* of --temporal; 0: not given         */
+    double weight[BRUME_MAX_TAPS];
     bool full_transport;
     int spp;
     double error, seconds;

@@ -45,6 +45,16 @@ void origins_miss(struct parse_origins *origins, const char *path)
     note(origins, origins ? &origins->missing : NULL, path);
 }
 
+void origins_merge(struct parse_origins *origins,
+                   const struct parse_origins *from)
+{
+    for (size_t i = 0; i < from->read.count; i++)
+        origins_add(origins, from->read.path[i]);
+    for (size_t i = 0; i < from->missing.count; i++)
+        origins_miss(origins, from->missing.path[i]);
+    origins->incomplete = origins->incomplete || from->incomplete;
+}
+
 static void release(struct parse_paths *list)
 {
     for (size_t i = 0; i < list->count; i++)

@@ -9,4 +9,7 @@
  * `incomplete` is set. */
 void origins_add(struct parse_origins *origins, const char *path);
 void origins_miss(struct parse_origins *origins, const char *path);
+/* All that `from` has. */
+void origins_merge(struct parse_origins *origins,
+                   const struct parse_origins *from);
 #endif

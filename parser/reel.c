@@ -1,11 +1,7 @@
-#include "parser/reel.h"
-#include "lib/hash.h"
+#include "parser/reel_parts.h"
 #include "lib/timer.h"
 #include "parser/input.h"
 #include "parser/naming.h"
-#include "parser/picture.h"
-#include "parser/settings.h"
-#include <inttypes.h>
 #include <string.h>
 
 /* ---- telling ----------------------------------------------------------- */
@@ -30,10 +26,11 @@ static void report_item(const struct reel *reel, const struct diag_item *item)
     diag_release(&diag);
 }
 
-/* The code of an error that is told now. */
-static enum brume_code fail(const struct reel *reel,
-                            const struct brume_error *err)
+enum brume_code reel_fail(const struct reel *reel,
+                          const struct brume_error *err)
 {
+    if (err->code == BRUME_STOPPED)
+        return err->code;
     report_item(reel, &(struct diag_item){
                           .severity = DIAG_ERROR,
                           .code = err->code,
@@ -45,7 +42,7 @@ static enum brume_code fail(const struct reel *reel,
     return err->code;
 }
 
-static void warn(void *user, const char *text)
+void reel_warn(void *user, const char *text)
 {
     report_item(user, &(struct diag_item){
                           .severity = DIAG_WARNING,
@@ -112,7 +109,7 @@ static void warn_of_extension(struct reel *reel)
              "%s pictures are not supported yet: the file "
              "will be '%s.png'",
              extension, reel->options->output);
-    warn(reel, text);
+    reel_warn(reel, text);
 }
 
 static bool choose_part(struct reel *reel, struct brume_error *err)
@@ -201,8 +198,8 @@ static bool read_scene(struct reel *reel, int number,
     return ok;
 }
 
-static struct brume_options render_options(struct reel *reel, int number,
-                                           const struct parse_result *scene)
+struct brume_options reel_options(struct reel *reel, int number,
+                                  const struct parse_result *scene)
 {
     const struct options *o = reel->options;
     bool chosen = o->spp || o->error > 0 || o->seconds > 0;
@@ -236,153 +233,23 @@ static struct brume_options render_options(struct reel *reel, int number,
         r.photons.single = BRUME_SINGLE_FIELD;
         r.photons.emission = BRUME_EMISSION_PHOTONS;
     }
+    if (o->taps > 0) {
+        r.photons.taps = o->taps;
+        memcpy(r.photons.weight, o->weight, sizeof o->weight);
+    }
+    if (!reel->frames.animation)
+        r.photons.taps = 1;
     r.progress = on_progress;
-    r.warn = warn;
+    r.warn = reel_warn;
     r.user = reel;
     r.omit_background = o->alpha;
     return r;
 }
 
-/* What an EXR says of itself: nothing that differs from run to run. */
-enum { TEXTS = 6, TEXT_SIZE = 64 };
-
-static size_t describe(const struct reel *reel, const struct reel_record *r,
-                       struct exr_text text[TEXTS],
-                       char value[TEXTS][TEXT_SIZE])
-{
-    size_t count = 0;
-    const char *slash = strrchr(reel->options->input, '/');
-    text[count++] = (struct exr_text){"software", "Brume " BRUME_VERSION};
-    text[count++] = (struct exr_text){
-        "scene",
-        slash ? slash + 1 : reel->options->input,
-    };
-    if (reel->frames.animation) {
-        snprintf(value[count], TEXT_SIZE, "%d", r->number);
-        text[count] = (struct exr_text){"frame", value[count]};
-        count++;
-    }
-    if (r->clock_on) {
-        snprintf(value[count], TEXT_SIZE, "%.17g", r->clock);
-        text[count] = (struct exr_text){"clock", value[count]};
-        count++;
-    }
-    snprintf(value[count], TEXT_SIZE, "%d", r->stats.spp);
-    text[count] = (struct exr_text){"samplesPerPixel", value[count]};
-    count++;
-    snprintf(value[count], TEXT_SIZE, "%.6g", r->stats.error);
-    text[count] = (struct exr_text){"relativeError", value[count]};
-    return count + 1;
-}
-
-static bool write_frame(struct reel *reel, const struct brume_frame *frame,
-                        struct reel_record *record, struct brume_error *err)
-{
-    const struct options *options = reel->options;
-    struct exr_text text[TEXTS];
-    char value[TEXTS][TEXT_SIZE];
-    struct picture picture = {
-        .frame = frame,
-        .format = naming_format(options),
-        .bits = options->bits,
-        .alpha = options->alpha,
-        .text = text,
-        .texts = describe(reel, record, text, value),
-    };
-    if (!options->to_file)
-        return true;
-    double start = timer_seconds();
-    bool ok = picture_write(&picture, record->picture, reel->events->out, err);
-    record->seconds_write = timer_seconds() - start;
-    return ok;
-}
-
-static double all_seconds(const struct reel_record *r)
-{
-    return r->seconds_parse + r->stats.seconds_prepare +
-           r->stats.seconds_render + r->seconds_write;
-}
-
-/* A scene from a stream is no file that could be looked at. */
-static uint64_t settings_of(const struct reel *reel, int number)
-{
-    uint64_t hash = settings_hash(reel->options, &reel->frames, number);
-    return reel->text ? hash_bytes(hash, reel->text, reel->length) : hash;
-}
-
-static bool note_picture(const struct reel *reel,
-                         const struct reel_record *record,
-                         const struct parse_origins *origins,
-                         struct brume_error *err)
-{
-    struct manifest_entry entry = {
-        .number = record->number,
-        .clock_on = record->clock_on,
-        .clock = record->clock,
-        .picture = record->picture,
-        .settings = settings_of(reel, record->number),
-        .origins = origins,
-        .writes = reel->written.count > 0,
-        .stats = &record->stats,
-        .seconds = all_seconds(record),
-    };
-    return !reel->manifest || manifest_add(reel->manifest, &entry, err);
-}
-
-static bool keep_record(struct reel *reel, const struct reel_record *record,
-                        struct brume_error *err)
-{
-    void *records = reel->record;
-    if (!arena_grow(&reel->arena, &records, &reel->room, reel->records + 1,
-                    sizeof *record))
-        return brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
-    reel->record = records;
-    reel->record[reel->records++] = *record;
-    return true;
-}
-
-static void warn_of_samples(struct reel *reel, const struct brume_stats *stats)
-{
-    char text[160];
-    if (stats->rejected > 0) {
-        snprintf(text, sizeof text,
-                 "%" PRIu64 " samples were not finite and "
-                 "were left out",
-                 stats->rejected);
-        warn(reel, text);
-    }
-    if (stats->majorant_exceeded > 0) {
-        snprintf(text, sizeof text,
-                 "a density was above its bound %" PRIu64
-                 " times: the picture may be wrong",
-                 stats->majorant_exceeded);
-        warn(reel, text);
-    }
-}
-
-static bool render(struct reel *reel, const struct parse_result *scene,
-                   struct reel_record *record,
-                   const struct parse_origins *origins, struct brume_error *err)
-{
-    struct brume_options options = render_options(reel, record->number, scene);
-    struct brume_frame frame = {0};
-    if (!brume_render(scene->scene, &options, &frame, err))
-        return false;
-    record->stats = frame.stats;
-    warn_of_samples(reel, &frame.stats);
-    bool ok = write_frame(reel, &frame, record, err) &&
-              note_picture(reel, record, origins, err) &&
-              keep_record(reel, record, err);
-    brume_frame_free(&frame);
-    if (ok)
-        reel->events->finished(reel->events->user, record);
-    return ok;
-}
-
 static bool explain(struct reel *reel, const struct parse_result *scene,
                     int number, struct brume_error *err)
 {
-    struct brume_options options = render_options(reel, number, scene);
+    struct brume_options options = reel_options(reel, number, scene);
     struct brume_plan plan = {0};
     if (!brume_plan_frame(scene->scene, &options, &plan, err))
         return false;
@@ -411,7 +278,7 @@ static bool measure(struct reel *reel, const struct parse_result *scene,
     const char *slash = strrchr(o->input, '/');
     struct measure m = {
         .scene = slash ? slash + 1 : o->input,
-        .options = render_options(reel, number, scene),
+        .options = reel_options(reel, number, scene),
         .only = o->has_integrator ? (int)o->integrator : -1,
         .budget = o->budget > 0 ? o->budget : MEASURE_BUDGET,
         .reference = o->reference,
@@ -425,84 +292,65 @@ static bool measure(struct reel *reel, const struct parse_result *scene,
 }
 
 static bool act_on(struct reel *reel, const struct parse_result *scene,
-                   struct reel_record *record,
-                   const struct parse_origins *origins, struct brume_error *err)
+                   int number, struct brume_error *err)
 {
     switch (reel->options->action) {
-    case OPTIONS_RENDER:
-        return render(reel, scene, record, origins, err);
     case OPTIONS_EXPLAIN:
     case OPTIONS_EXPLAIN_JSON:
-        return explain(reel, scene, record->number, err);
+        return explain(reel, scene, number, err);
     case OPTIONS_MEASURE:
-        return measure(reel, scene, record->number, err);
+        return measure(reel, scene, number, err);
     default:
         return true;
     }
 }
 
-/* Reads the scene; `act`: and does with it what is asked for. */
-static enum brume_code read_and_act(struct reel *reel,
-                                    struct reel_record *record, bool act)
+enum brume_code reel_read(struct reel *reel, struct reel_record *record,
+                          struct parse_result *scene,
+                          struct parse_origins *origins)
 {
     const struct reel_events *events = reel->events;
-    struct parse_result scene = {0};
-    struct parse_origins origins = {0};
-    struct brume_error err = {0};
     struct diag diag;
     diag_init(&diag);
-    bool ok = read_scene(reel, record->number, &scene, record, &origins, &diag);
+    bool ok = read_scene(reel, record->number, scene, record, origins, &diag);
     enum brume_code code = ok ? BRUME_OK : diag.code;
     if (code != BRUME_STOPPED)
         report(reel, &diag);
     diag_release(&diag);
-    if (ok && events->stopped(events->user))
-        code = BRUME_STOPPED;
-    else if (ok && act && !act_on(reel, &scene, record, &origins, &err))
-        code = err.code == BRUME_STOPPED ? BRUME_STOPPED : fail(reel, &err);
-    if (scene.scene)
-        brume_scene_free(scene.scene);
-    parse_origins_release(&origins);
-    return code;
-}
-
-/* Whether the picture is there already, as this run would make it. */
-static bool is_finished(const struct reel *reel,
-                        const struct reel_record *record, bool *writes)
-{
-    const struct options *o = reel->options;
-    return reel->manifest && o->resume &&
-           manifest_has(reel->manifest, record->number,
-                        settings_of(reel, record->number), record->picture,
-                        writes);
+    if (!ok || !events->stopped(events->user))
+        return code;
+    brume_scene_free(scene->scene);
+    scene->scene = NULL;
+    return BRUME_STOPPED;
 }
 
 static enum brume_code run_frame(struct reel *reel, int number)
 {
     const struct reel_events *events = reel->events;
-    const struct options *o = reel->options;
     struct reel_record record = {.number = number};
-    bool writes = false;
+    struct parse_result scene = {0};
+    struct brume_error err = {0};
     events->frame(events->user, &reel->frames, number);
-    if (o->to_file && o->action == OPTIONS_RENDER) {
-        record.picture = naming_picture(o, &reel->frames, number, &reel->arena);
-        if (!record.picture)
-            return fail(reel, &(struct brume_error){.code = BRUME_ERR_MEMORY,
-                                                    .text = "out of memory"});
-    }
-    if (!is_finished(reel, &record, &writes))
-        return read_and_act(reel, &record, true);
-    reel->skipped++;
-    events->skipped(events->user, record.picture);
-    return writes ? read_and_act(reel, &record, false) : BRUME_OK;
+    enum brume_code code = reel_read(reel, &record, &scene, NULL);
+    if (!code && !act_on(reel, &scene, number, &err))
+        code = reel_fail(reel, &err);
+    brume_scene_free(scene.scene);
+    return code;
 }
 
-/* ---- the film ---------------------------------------------------------- */
+/* ---- all frames -------------------------------------------------------- */
 
-static bool goes_on(const struct reel *reel)
+static enum brume_code run_frames(struct reel *reel)
 {
-    enum options_action action = reel->options->action;
-    return action == OPTIONS_RENDER || checks(action);
+    const struct reel_events *events = reel->events;
+    const struct frames *f = &reel->frames;
+    for (int i = f->first;; i += f->step) {
+        enum brume_code code = run_frame(reel, i);
+        bool more = checks(reel->options->action) && f->last - i >= f->step;
+        bool stopped = (more || code) && events->stopped(events->user);
+        if (code || stopped || !more)
+            return stopped ? BRUME_STOPPED : code;
+    }
 }
 
 enum brume_code reel_run(struct reel *reel, struct options *options,
@@ -512,17 +360,12 @@ enum brume_code reel_run(struct reel *reel, struct options *options,
     *reel = (struct reel){.options = options, .events = events};
     arena_init(&reel->arena, 0);
     if (!begin(reel, &err))
-        return events->stopped(events->user) ? BRUME_STOPPED : fail(reel, &err);
-    const struct frames *f = &reel->frames;
-    if (f->none)
+        return events->stopped(events->user) ? BRUME_STOPPED
+                                             : reel_fail(reel, &err);
+    if (reel->frames.none)
         return BRUME_OK;
-    for (int i = f->first;; i += f->step) {
-        enum brume_code code = run_frame(reel, i);
-        bool more = goes_on(reel) && f->last - i >= f->step;
-        bool stopped = (more || code) && events->stopped(events->user);
-        if (code || stopped || !more)
-            return stopped ? BRUME_STOPPED : code;
-    }
+    return options->action == OPTIONS_RENDER ? reel_film(reel)
+                                             : run_frames(reel);
 }
 
 void reel_release(struct reel *reel)

@@ -63,7 +63,9 @@ static bool put_photons(struct json *json, const struct brume_photon_stats *p)
               json_put_count(out, "clipped", p->clipped) &&
               json_put_count(out, "cells", p->cells) &&
               json_put_count(out, "bytes", p->bytes) &&
+              json_put_count(out, "ring", p->ring) &&
               json_put_number(out, "seconds", p->seconds) &&
+              json_put_number(out, "seconds_filter", p->seconds_filter) &&
               json_put_number(books, "units", p->units / of) &&
               json_put_number(books, "media", p->media / of) &&
               json_put_number(books, "surfaces", p->surfaces / of) &&

@@ -19,7 +19,7 @@ new_case 'SIGTERM in the middle of a film'
 "$BRUME" s.pov +W160 +H120 --spp 8 +KFF1000 +Ofilm.png --stats stats.json \
     >printed 2>said &
 pid=$!
-wait_for 'frame 3' said
+wait_for 'frame 4' said
 kill -TERM $pid
 wait $pid
 took $?

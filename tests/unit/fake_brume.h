@@ -244,4 +244,57 @@ void brume_frame_free(struct brume_frame *frame)
     (void)frame;
 }
 
+struct brume_film *brume_film_new(const struct brume_film_events *events,
+                                  struct brume_error *err)
+{
+    (void)events;
+    brume_fail(err, BRUME_ERR_DEVICE, "a fake core has no film");
+    return NULL;
+}
+
+void brume_film_free(struct brume_film *film)
+{
+    (void)film;
+}
+
+int brume_film_reach(const struct brume_options *options)
+{
+    return options->photons.taps / 2;
+}
+
+bool brume_film_taps(struct brume_photon_options *options, int taps)
+{
+    options->taps = taps;
+    return taps == 1 || taps == 3 || taps == 5;
+}
+
+bool brume_film_push(struct brume_film *film, brume_scene *scene,
+                     const struct brume_options *options, bool picture,
+                     struct brume_error *err)
+{
+    (void)film, (void)scene, (void)options, (void)picture, (void)err;
+    return false;
+}
+
+bool brume_film_ask(struct brume_film *film, uint32_t frame, uint32_t first,
+                    uint32_t last, struct brume_error *err)
+{
+    (void)film, (void)frame, (void)first, (void)last, (void)err;
+    return false;
+}
+
+bool brume_film_forget(struct brume_film *film, uint32_t below,
+                       struct brume_error *err)
+{
+    (void)film, (void)below, (void)err;
+    return false;
+}
+
+bool brume_film_next(struct brume_film *film, struct brume_frame *frame,
+                     struct brume_error *err)
+{
+    (void)film, (void)frame, (void)err;
+    return false;
+}
+
 #endif

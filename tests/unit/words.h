@@ -233,6 +233,8 @@ static const struct words_scene words_scenes[] = {
     WORDS_IN(GLOBAL_SETTINGS, "global_settings { % }"),
     WORDS_IN(TRANSPORT, "global_settings { transport { % } }"),
     WORDS_IN(VOLUME_PHOTONS, "global_settings { @volume_photons { % }@ }"),
+    WORDS_IN(TEMPORAL, "global_settings { volume_photons { @temporal { % 1, 2, "
+                       "1 }@ } }"),
     WORDS_LACK(PHOTONS, "POV-Ray's photons",
                "global_settings { @photons { % }@ }"),
     WORDS_LACK(RADIOSITY, "radiosity", "global_settings { @radiosity { % }@ }"),

@@ -1,0 +1,94 @@
+#include "core/filter.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "core/filter_view.h"
+#include "lib/memory.h"
+#include "lib/thread.h"
+
+bool filter_keep(const struct flat *flat, struct filter_field *out,
+                 struct brume_error *err)
+{
+    *out = (struct filter_field){
+        .lattice = flat->view.field,
+        .eye = flat->view.view,
+        .unit = flat->unit,
+        .bricks = flat->radiance_slots_count,
+        .count = flat->radiance_count,
+    };
+    memcpy(out->centre, flat->centre, sizeof out->centre);
+    out->slots = memory_new(out->bricks, sizeof *out->slots, err);
+    out->cells = memory_new(out->count, sizeof *out->cells, err);
+    if (!out->slots || !out->cells) {
+        filter_release(out);
+        return false;
+    }
+    memcpy(out->slots, flat->radiance_slots, out->bricks * sizeof *out->slots);
+    memcpy(out->cells, flat->radiance, out->count * sizeof *out->cells);
+    return true;
+}
+
+void filter_release(struct filter_field *f)
+{
+    free(f->slots);
+    free(f->cells);
+    f->slots = NULL;
+    f->cells = NULL;
+}
+
+uint64_t filter_bytes(const struct filter_field *f)
+{
+    return f->bricks * sizeof *f->slots + f->count * sizeof *f->cells;
+}
+
+/* ---- the mean ----------------------------------------------------------- */
+
+struct mean {
+    struct flat *flat;
+    struct filter_view view[BRUME_MAX_TAPS];
+    const double *weights;
+    int taps;
+};
+
+static void mean_of_cell(const struct mean *m, const int at[3], float *out)
+{
+    int numbers = m->flat->view.field.numbers;
+    double sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0;
+    float value[FILTER_MAX_NUMBERS];
+    for (int k = 0; k < m->taps; k++) {
+        if (!filter_view_cell(&m->view[k], at, value))
+            continue;
+        weights += m->weights[k];
+        for (int i = 0; i < numbers; i++)
+            sum[i] += m->weights[k] * (double)value[i];
+    }
+    for (int i = 0; weights > 0.0 && i < numbers; i++)
+        out[i] = (float)(sum[i] / weights);
+}
+
+static void mean_of_brick(void *context, size_t index, int thread)
+{
+    (void)thread;
+    const struct mean *m = context;
+    const radiance_lattice *f = &m->flat->view.field;
+    int32_t slot = m->flat->radiance_slots[index];
+    int corner[3];
+    if (slot < 0)
+        return;
+    filter_corner(f, index, corner);
+    float *out = m->flat->radiance + (size_t)slot * 512 * (size_t)f->numbers;
+    for (int i = 0; i < 512; i++, out += f->numbers) {
+        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
+                     corner[2] + (i >> 6)};
+        mean_of_cell(m, at, out);
+    }
+}
+
+void filter_mean(struct flat *flat, const struct filter_field *const *fields,
+                 const double *weights, int reach, int threads)
+{
+    struct mean m = {flat, .weights = weights, .taps = 2 * reach + 1};
+    for (int k = 0; k < m.taps; k++)
+        filter_view_init(&m.view[k], flat, fields[k]);
+    parallel_for(threads, flat->radiance_slots_count, mean_of_brick, &m, NULL);
+}

@@ -1,0 +1,30 @@
+/* filter.h - the field of scattered light as a mean over the frames of a film.
+ *
+ * Fields live in the scene's space: where two frames have other cells, those
+ * of one are interpolated at the middles of the other's. */
+#ifndef CORE_FILTER_H
+#define CORE_FILTER_H
+#include "core/flat.h"
+
+/* What is kept of a frame. */
+struct filter_field {
+    radiance_lattice lattice;
+    camera eye;
+    double unit, centre[3];     /* as in struct flat                       */
+    int32_t *slots;
+    float *cells;               /* lattice.numbers each                    */
+    size_t bricks, count;       /* of slots, of numbers in cells           */
+};
+
+/* A copy of the field of a frame that was traced. */
+bool filter_keep(const struct flat *flat, struct filter_field *out,
+                 struct brume_error *err);
+void filter_release(struct filter_field *field);
+uint64_t filter_bytes(const struct filter_field *field);
+
+/* Fills the field of a frame with the weighted mean of those of 2 reach + 1
+ * frames, NULL where there is none. Weights are made to sum to 1 over those
+ * that have a cell where one is wanted. */
+void filter_mean(struct flat *flat, const struct filter_field *const *fields,
+                 const double *weights, int reach, int threads);
+#endif

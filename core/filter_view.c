@@ -1,0 +1,168 @@
+#include "core/filter_view.h"
+#include <math.h>
+#include <string.h>
+#include "core/physics/phase.h"
+
+/* By how much light toward the eye may change for the eye's moving, relative,
+ * at most. */
+#define MOST_CHANGE 0.2
+
+void filter_corner(const radiance_lattice *f, size_t brick, int at[3])
+{
+    size_t x = (size_t)f->bricks[0], y = (size_t)f->bricks[1];
+    at[0] = 8 * (int)(brick % x);
+    at[1] = 8 * (int)(brick / x % y);
+    at[2] = 8 * (int)(brick / x / y);
+}
+
+static bool same_numbers(const radiance_lattice *a, const radiance_lattice *b)
+{
+    return a->numbers == b->numbers && a->eye == b->eye &&
+           a->fluence == b->fluence && a->flux == b->flux &&
+           a->phase == b->phase && a->g == b->g && a->ball == b->ball;
+}
+
+/* The most by which the logarithm of a phase function changes per radian;
+ * Henyey and Greenstein's: 3 g sin / (1 + g^2 - 2 g cos). */
+static double steepness(const radiance_lattice *f)
+{
+    double g = fabs((double)f->g);
+    switch (f->phase) {
+    case PHASE_HENYEY_GREENSTEIN:
+        return 3.0 * g / (1.0 - g * g);
+    case PHASE_RAYLEIGH:
+        return 0.71;
+    case PHASE_MIE_HAZY:
+        return 2.5;
+    case PHASE_MIE_MURKY:
+        return 7.5;
+    default:
+        return 0.0;
+    }
+}
+
+void filter_view_init(struct filter_view *v, const struct flat *from,
+                      const struct filter_field *field)
+{
+    memset(v, 0, sizeof *v);
+    if (!field || !same_numbers(&from->view.field, &field->lattice))
+        return;
+    const radiance_lattice *a = &from->view.field, *b = &field->lattice;
+    v->field = field;
+    v->scale = (double)a->side / from->unit * field->unit / (double)b->side;
+    v->aligned = fabs(v->scale - 1.0) < 1e-6;
+    for (int i = 0; i < 3; i++) {
+        double first = (double)a->origin[i] + 0.5 * (double)a->side;
+        double world = first / from->unit + from->centre[i];
+        double there = (world - field->centre[i]) * field->unit;
+        v->shift[i] = (there - (double)b->origin[i]) / (double)b->side - 0.5;
+        v->offset[i] = (int)fmin(fmax(rint(v->shift[i]), -1e6), 1e6);
+        v->aligned = v->aligned && fabs(v->shift[i] - v->offset[i]) < 1e-3;
+    }
+    v->gain = a->ball ? (float)(field->unit / from->unit) : 1.0f;
+    double steep = a->eye >= 0 ? steepness(a) : 0.0;
+    if (steep > 0.0) {
+        v->from = from;
+        v->turn = MOST_CHANGE / steep;
+    }
+}
+
+/* ---- cells -------------------------------------------------------------- */
+
+static const float *cell_at(const struct filter_field *f, int x, int y, int z)
+{
+    const int32_t *n = f->lattice.bricks;
+    if (x < 0 || y < 0 || z < 0 || x >= 8 * n[0] || y >= 8 * n[1] ||
+        z >= 8 * n[2])
+        return NULL;
+    size_t brick = (size_t)(x >> 3) +
+                   (size_t)n[0] *
+                       ((size_t)(y >> 3) + (size_t)n[1] * (size_t)(z >> 3));
+    int32_t slot = f->slots[brick];
+    size_t inside = (size_t)(((z & 7) * 8 + (y & 7)) * 8 + (x & 7));
+    return slot < 0 ? NULL
+                    : f->cells + ((size_t)slot * 512 + inside) *
+                                     (size_t)f->lattice.numbers;
+}
+
+static bool interpolate(const struct filter_view *v, const int at[3],
+                        float out[FILTER_MAX_NUMBERS])
+{
+    const struct filter_field *f = v->field;
+    double fraction[3], sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0;
+    int low[3], numbers = f->lattice.numbers;
+    for (int i = 0; i < 3; i++) {
+        double q = v->scale * at[i] + v->shift[i];
+        double whole = fmin(fmax(floor(q), -1e6), 1e6);
+        low[i] = (int)whole;
+        fraction[i] = q - whole;
+    }
+    for (int k = 0; k < 8; k++) {
+        double weight = 1.0;
+        for (int i = 0; i < 3; i++)
+            weight *= k >> i & 1 ? fraction[i] : 1.0 - fraction[i];
+        const float *cell = cell_at(f, low[0] + (k & 1), low[1] + (k >> 1 & 1),
+                                    low[2] + (k >> 2));
+        if (!cell || !(weight > 0.0))
+            continue;
+        weights += weight;
+        for (int i = 0; i < numbers; i++)
+            sum[i] += weight * (double)cell[i];
+    }
+    if (!(weights >= 0.5))
+        return false;
+    for (int i = 0; i < numbers; i++)
+        out[i] = (float)(sum[i] / weights) * v->gain;
+    return true;
+}
+
+/* The unit vector from a place of the world to a frame's eye. */
+static void way_to_eye(const camera *eye, double unit, const double centre[3],
+                       const double p[3], double out[3])
+{
+    double d[3] = {(double)eye->direction.x, (double)eye->direction.y,
+                   (double)eye->direction.z};
+    double at[3] = {(double)eye->location.x, (double)eye->location.y,
+                    (double)eye->location.z};
+    double size = 0.0;
+    for (int i = 0; i < 3; i++) {
+        out[i] = eye->orthographic ? -d[i] : at[i] / unit + centre[i] - p[i];
+        size += out[i] * out[i];
+    }
+    for (int i = 0; i < 3; i++)
+        out[i] /= sqrt(fmax(size, 1e-300));
+}
+
+static bool is_seen_alike(const struct filter_view *v, const int at[3])
+{
+    const struct filter_field *f = v->field;
+    const radiance_lattice *l = &v->from->view.field;
+    double p[3], a[3], b[3], cross = 0.0, dot = 0.0;
+    for (int i = 0; i < 3; i++)
+        p[i] = ((double)l->origin[i] + (at[i] + 0.5) * (double)l->side) /
+                   v->from->unit +
+               v->from->centre[i];
+    way_to_eye(&v->from->view.view, v->from->unit, v->from->centre, p, a);
+    way_to_eye(&f->eye, f->unit, f->centre, p, b);
+    for (int i = 0; i < 3; i++) {
+        double c = a[(i + 1) % 3] * b[(i + 2) % 3] -
+                   a[(i + 2) % 3] * b[(i + 1) % 3];
+        cross += c * c;
+        dot += a[i] * b[i];
+    }
+    return atan2(sqrt(cross), dot) <= v->turn;
+}
+
+bool filter_view_cell(const struct filter_view *v, const int at[3],
+                      float out[FILTER_MAX_NUMBERS])
+{
+    if (!v->field || (v->from && !is_seen_alike(v, at)))
+        return false;
+    if (!v->aligned)
+        return interpolate(v, at, out);
+    const float *cell = cell_at(v->field, at[0] + v->offset[0],
+                                at[1] + v->offset[1], at[2] + v->offset[2]);
+    for (int i = 0; cell && i < v->field->lattice.numbers; i++)
+        out[i] = cell[i] * v->gain;
+    return cell != NULL;
+}

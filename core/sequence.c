@@ -1,0 +1,538 @@
+/* The frames of a film: what is handed over and asked for is done one by one
+ * by a thread, which tells what it warns of and how far it is by way of the
+ * caller's. */
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "core/filter.h"
+#include "core/frame.h"
+#include "lib/memory.h"
+#include "lib/timer.h"
+
+/* A frame that was pushed. */
+struct shot {
+    struct shot *next;
+    uint32_t number;
+    brume_scene *scene; /* until it is prepared                        */
+    struct brume_options options;
+    bool picture; /* will be asked for                           */
+    bool open;    /* the job is                                  */
+    struct frame_job job;
+    struct brume_frame out;
+    bool traced; /* the field below is there                    */
+    struct filter_field field;
+    struct brume_error err; /* what it failed by                           */
+};
+
+enum task_kind { TASK_PUSH, TASK_ASK, TASK_FORGET };
+
+struct result {
+    struct result *next;
+    struct brume_frame frame;
+    struct brume_error err;
+};
+
+struct task {
+    struct task *next;
+    enum task_kind kind;
+    struct shot *shot;            /* that is pushed                        */
+    struct result *result;        /* of what is asked for                  */
+    uint32_t number, first, last; /* frames                                */
+};
+
+struct text {
+    struct text *next;
+    char text[];
+};
+
+struct brume_film {
+    struct brume_film_events events;
+    pthread_t thread;
+    pthread_mutex_t lock; /* of what follows, up to `stop`               */
+    pthread_cond_t work, news;
+    struct task *task; /* first to do                                 */
+    struct result *result;
+    struct text *warning;
+    struct brume_progress progress;
+    bool quit;
+    int asked; /* pictures that next() has yet to give            */
+    atomic_bool stop;
+    struct shot *shot; /* the thread's own                            */
+    uint64_t ring;     /* bytes of the fields of all shots            */
+};
+
+/* Items of these lists begin with their link. */
+static void append(void *list, void *item)
+{
+    void **at = list;
+    while (*at)
+        at = (void **)*at;
+    *(void **)item = NULL;
+    *at = item;
+}
+
+static void *take_first(void *list)
+{
+    void **at = list, *first = *at;
+    if (first)
+        *at = *(void **)first;
+    return first;
+}
+
+/* ---- what the thread tells ---------------------------------------------- */
+
+static bool on_progress(void *user, const struct brume_progress *progress)
+{
+    struct brume_film *film = user;
+    pthread_mutex_lock(&film->lock);
+    film->progress = *progress;
+    pthread_cond_signal(&film->news);
+    pthread_mutex_unlock(&film->lock);
+    return !atomic_load(&film->stop);
+}
+
+static void on_warn(void *user, const char *text)
+{
+    struct brume_film *film = user;
+    size_t size = strlen(text) + 1;
+    struct text *warning = malloc(sizeof *warning + size);
+    if (!warning)
+        return;
+    memcpy(warning->text, text, size);
+    pthread_mutex_lock(&film->lock);
+    append(&film->warning, warning);
+    pthread_cond_signal(&film->news);
+    pthread_mutex_unlock(&film->lock);
+}
+
+static void give(struct brume_film *film, struct result *result)
+{
+    pthread_mutex_lock(&film->lock);
+    append(&film->result, result);
+    pthread_cond_signal(&film->news);
+    pthread_mutex_unlock(&film->lock);
+}
+
+/* ---- shots -------------------------------------------------------------- */
+
+static struct shot *find_shot(const struct brume_film *film, uint32_t number)
+{
+    struct shot *shot = film->shot;
+    while (shot && shot->number != number)
+        shot = shot->next;
+    return shot;
+}
+
+static void close_job(struct shot *shot)
+{
+    if (shot->open)
+        frame_close(&shot->job);
+    shot->open = false;
+    brume_scene_free(shot->scene);
+    shot->scene = NULL;
+}
+
+static void free_shot(struct brume_film *film, struct shot *shot)
+{
+    close_job(shot);
+    if (shot->traced) {
+        film->ring -= filter_bytes(&shot->field);
+        filter_release(&shot->field);
+    }
+    brume_frame_free(&shot->out);
+    free(shot);
+}
+
+/* A frame whose scene has no field has none to keep. */
+static bool keep_field(struct brume_film *film, struct shot *shot)
+{
+    struct frame_job *job = &shot->job;
+    if (!plan_stages(job->flat, &shot->options).photons)
+        return true;
+    job->held = film->ring;
+    if (!frame_trace(job, &shot->err) ||
+        !filter_keep(job->flat, &shot->field, &shot->err))
+        return false;
+    shot->traced = true;
+    film->ring += filter_bytes(&shot->field);
+    return true;
+}
+
+static bool open_job(struct shot *shot)
+{
+    shot->open = true;
+    bool good = frame_open(&shot->job, shot->scene, &shot->options, &shot->out,
+                           &shot->err);
+    brume_scene_free(shot->scene);
+    shot->scene = NULL;
+    return good;
+}
+
+/* Where no filter is asked for, nothing is done before the picture is. */
+static void push(struct brume_film *film, struct shot *shot)
+{
+    append(&film->shot, shot);
+    if (brume_film_reach(&shot->options) == 0)
+        return;
+    if (!open_job(shot) || !keep_field(film, shot) || !shot->picture)
+        close_job(shot);
+}
+
+static void forget(struct brume_film *film, uint32_t below)
+{
+    struct shot **at = &film->shot;
+    while (*at) {
+        struct shot *shot = *at;
+        if (shot->number >= below) {
+            at = &shot->next;
+            continue;
+        }
+        *at = shot->next;
+        free_shot(film, shot);
+    }
+}
+
+/* ---- pictures ----------------------------------------------------------- */
+
+/* The fields within reach; false with err set where a frame failed. */
+static bool list_fields(const struct brume_film *film, const struct task *task,
+                        int reach, const struct filter_field **fields,
+                        struct brume_error *err)
+{
+    for (int k = -reach; k <= reach; k++) {
+        int64_t number = (int64_t)task->number + k;
+        fields[k + reach] = NULL;
+        if (number < task->first || number > task->last)
+            continue;
+        const struct shot *shot = find_shot(film, (uint32_t)number);
+        if (!shot)
+            return brume_fail(err, BRUME_ERR_USAGE,
+                              "frame %lld, which is within the reach of frame "
+                              "%lu, was not pushed",
+                              (long long)number, (unsigned long)task->number);
+        if (shot->err.code) {
+            *err = shot->err;
+            return false;
+        }
+        if (shot->traced)
+            fields[k + reach] = &shot->field;
+    }
+    return true;
+}
+
+static bool filter_shot(struct brume_film *film, const struct task *task,
+                        struct shot *shot, struct brume_error *err)
+{
+    const struct filter_field *fields[BRUME_MAX_TAPS];
+    int reach = brume_film_reach(&shot->options);
+    struct brume_photon_stats *stats = &shot->out.stats.photons;
+    double start = timer_seconds();
+    if (!list_fields(film, task, reach, fields, err))
+        return false;
+    filter_mean(shot->job.flat, fields, shot->options.photons.weight, reach,
+                shot->options.threads);
+    stats->ring = shot->job.held = film->ring;
+    stats->seconds_filter = timer_seconds() - start;
+    return true;
+}
+
+static bool render_shot(struct brume_film *film, const struct task *task,
+                        struct brume_error *err)
+{
+    struct shot *shot = find_shot(film, task->number);
+    if (!shot)
+        return brume_fail(err, BRUME_ERR_USAGE, "frame %lu was not pushed",
+                          (unsigned long)task->number);
+    if (!shot->err.code && !shot->open && !shot->scene)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "frame %lu was pushed without a picture, or has had "
+                          "its own",
+                          (unsigned long)task->number);
+    if (!shot->err.code && !shot->open)
+        open_job(shot);
+    if (shot->err.code) {
+        *err = shot->err;
+        return false;
+    }
+    return (!shot->traced || filter_shot(film, task, shot, err)) &&
+           frame_render(&shot->job, shot->traced, err);
+}
+
+static void make_picture(struct brume_film *film, const struct task *task)
+{
+    struct result *result = task->result;
+    struct shot *shot = find_shot(film, task->number);
+    if (render_shot(film, task, &result->err)) {
+        result->frame = shot->out;
+        memset(&shot->out, 0, sizeof shot->out);
+    }
+    if (shot)
+        close_job(shot);
+}
+
+/* ---- the thread --------------------------------------------------------- */
+
+static void do_task(struct brume_film *film, struct task *task)
+{
+    switch (task->kind) {
+    case TASK_PUSH:
+        push(film, task->shot);
+        break;
+    case TASK_FORGET:
+        forget(film, task->number);
+        break;
+    case TASK_ASK:
+        make_picture(film, task);
+        give(film, task->result);
+        break;
+    }
+}
+
+static void *run(void *context)
+{
+    struct brume_film *film = context;
+    for (;;) {
+        pthread_mutex_lock(&film->lock);
+        while (!film->task && !film->quit)
+            pthread_cond_wait(&film->work, &film->lock);
+        struct task *task = film->quit ? NULL : take_first(&film->task);
+        pthread_mutex_unlock(&film->lock);
+        if (!task)
+            return NULL;
+        do_task(film, task);
+        free(task);
+    }
+}
+
+/* Signals are for the caller's thread. */
+static bool start(struct brume_film *film, struct brume_error *err)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int reason = pthread_create(&film->thread, NULL, run, film);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return reason == 0 ||
+           brume_fail(err, BRUME_ERR_MEMORY,
+                      "the thread that renders can't be started: %s",
+                      strerror(reason));
+}
+
+/* ---- for the caller ----------------------------------------------------- */
+
+struct brume_film *brume_film_new(const struct brume_film_events *events,
+                                  struct brume_error *err)
+{
+    struct brume_film *film = memory_new(1, sizeof *film, err);
+    if (!film)
+        return NULL;
+    if (events)
+        film->events = *events;
+    pthread_mutex_init(&film->lock, NULL);
+    pthread_cond_init(&film->work, NULL);
+    pthread_cond_init(&film->news, NULL);
+    if (start(film, err))
+        return film;
+    free(film);
+    return NULL;
+}
+
+static void free_task(struct brume_film *film, struct task *task)
+{
+    if (task->shot)
+        free_shot(film, task->shot);
+    free(task->result);
+    free(task);
+}
+
+void brume_film_free(struct brume_film *film)
+{
+    void *item;
+    if (!film)
+        return;
+    atomic_store(&film->stop, true);
+    pthread_mutex_lock(&film->lock);
+    film->quit = true;
+    pthread_cond_signal(&film->work);
+    pthread_mutex_unlock(&film->lock);
+    pthread_join(film->thread, NULL);
+    while ((item = take_first(&film->task)))
+        free_task(film, item);
+    while ((item = take_first(&film->shot)))
+        free_shot(film, item);
+    while ((item = take_first(&film->warning)))
+        free(item);
+    while ((item = take_first(&film->result))) {
+        brume_frame_free(&((struct result *)item)->frame);
+        free(item);
+    }
+    pthread_cond_destroy(&film->news);
+    pthread_cond_destroy(&film->work);
+    pthread_mutex_destroy(&film->lock);
+    free(film);
+}
+
+/* Cha, Yi and Ihm 2010. */
+bool brume_film_taps(struct brume_photon_options *options, int taps)
+{
+    static const double weights[][5] = {
+        {1.0},
+        {0.25, 0.5, 0.25},
+        {0.1, 0.2, 0.4, 0.2, 0.1},
+    };
+    if (taps != 1 && taps != 3 && taps != 5)
+        return false;
+    memcpy(options->weight, weights[taps / 2],
+           (size_t)taps * sizeof *options->weight);
+    options->taps = taps;
+    return true;
+}
+
+int brume_film_reach(const struct brume_options *options)
+{
+    int taps = options->photons.taps;
+    bool filters = options->integrator == BRUME_INTEGRATOR_PHOTON && taps > 1;
+    return filters ? taps / 2 : 0;
+}
+
+static void put(struct brume_film *film, struct task *task)
+{
+    pthread_mutex_lock(&film->lock);
+    append(&film->task, task);
+    film->asked += task->kind == TASK_ASK;
+    pthread_cond_signal(&film->work);
+    pthread_mutex_unlock(&film->lock);
+}
+
+bool brume_film_push(struct brume_film *film, brume_scene *scene,
+                     const struct brume_options *options, bool picture,
+                     struct brume_error *err)
+{
+    struct task *task = memory_new(1, sizeof *task, err);
+    struct shot *shot = memory_new(1, sizeof *shot, err);
+    if (!task || !shot) {
+        brume_scene_free(scene);
+        free(task);
+        free(shot);
+        return false;
+    }
+    shot->number = options->frame;
+    shot->scene = scene;
+    shot->picture = picture;
+    shot->options = *options;
+    shot->options.progress = on_progress;
+    shot->options.warn = on_warn;
+    shot->options.user = film;
+    task->kind = TASK_PUSH;
+    task->shot = shot;
+    put(film, task);
+    return true;
+}
+
+bool brume_film_ask(struct brume_film *film, uint32_t frame, uint32_t first,
+                    uint32_t last, struct brume_error *err)
+{
+    struct task *task = memory_new(1, sizeof *task, err);
+    struct result *result = memory_new(1, sizeof *result, err);
+    if (!task || !result) {
+        free(task);
+        free(result);
+        return false;
+    }
+    *task = (struct task){.kind = TASK_ASK,
+                          .number = frame,
+                          .first = first,
+                          .last = last,
+                          .result = result};
+    put(film, task);
+    return true;
+}
+
+bool brume_film_forget(struct brume_film *film, uint32_t below,
+                       struct brume_error *err)
+{
+    struct task *task = memory_new(1, sizeof *task, err);
+    if (!task)
+        return false;
+    task->kind = TASK_FORGET;
+    task->number = below;
+    put(film, task);
+    return true;
+}
+
+/* Waits a tenth of a second, or less where something is new. */
+static void wait_for_news(struct brume_film *film)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += 100000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&film->news, &film->lock, &until);
+}
+
+static void tell_warning(const struct brume_film *film, struct text *warning)
+{
+    if (film->events.warn)
+        film->events.warn(film->events.user, warning->text);
+    free(warning);
+}
+
+/* Asked also while a frame is prepared, which tells of no progress. */
+static void tell_progress(struct brume_film *film,
+                          struct brume_progress progress)
+{
+    if (!progress.stage)
+        progress.stage = "prepare";
+    if (film->events.progress &&
+        !film->events.progress(film->events.user, &progress))
+        atomic_store(&film->stop, true);
+}
+
+/* The next result; what is told meanwhile is told without the lock. */
+static struct result *wait_for_result(struct brume_film *film)
+{
+    pthread_mutex_lock(&film->lock);
+    for (;;) {
+        struct text *warning = take_first(&film->warning);
+        struct result *result = warning ? NULL : take_first(&film->result);
+        if (result) {
+            film->asked--;
+            memset(&film->progress, 0, sizeof film->progress);
+            pthread_mutex_unlock(&film->lock);
+            return result;
+        }
+        if (!warning)
+            wait_for_news(film);
+        struct brume_progress progress = film->progress;
+        bool quiet = film->result || film->warning;
+        pthread_mutex_unlock(&film->lock);
+        if (warning)
+            tell_warning(film, warning);
+        else if (!quiet)
+            tell_progress(film, progress);
+        pthread_mutex_lock(&film->lock);
+    }
+}
+
+bool brume_film_next(struct brume_film *film, struct brume_frame *frame,
+                     struct brume_error *err)
+{
+    pthread_mutex_lock(&film->lock);
+    bool due = film->asked > 0;
+    pthread_mutex_unlock(&film->lock);
+    memset(frame, 0, sizeof *frame);
+    if (!due)
+        return brume_fail(err, BRUME_ERR_USAGE, "no picture was asked for");
+    struct result *result = wait_for_result(film);
+    bool good = result->err.code == BRUME_OK;
+    if (good)
+        *frame = result->frame;
+    else
+        *err = result->err;
+    free(result);
+    return good;
+}

@@ -1,0 +1,110 @@
+#!/bin/sh
+# Films whose scattered light is a mean over frames: the same bytes however
+# they are split, and settings that say what is wrong with them.
+. "$(dirname "$0")/lib"
+
+# fog TEMPORAL: a ball of fog on its way.
+fog()
+{
+    cat <<END
+#version 3.7;
+global_settings { integrator photon
+    volume_photons { count 3000 field_spacing 0.2 $1 } }
+camera { location <0, 0, -4> look_at 0 }
+light_source { <10, 10, -10> rgb 3 }
+sphere { <clock, 0, 0>, 1 hollow pigment { rgbt 1 }
+    interior { media { scattering { 1, 2 } absorption 0.2 } } }
+END
+}
+
+film='+W12 +H9 --spp 2 --backend cpu +KFF9'
+fog 'temporal 5' >five.pov
+fog 'temporal 3' >three.pov
+fog '' >none.pov
+
+all_same()
+{
+    for i in 1 2 3 4 5 6 7 8 9; do
+        same "$1$i.png" "$2$i.png"
+    done
+}
+
+new_case 'the filter has an effect, and the switch is stronger than the scene'
+for name in five three none; do
+    brume $name.pov $film +O$name
+    exits 0
+done
+cmp -s five5.png none5.png && complain '5 taps have no effect'
+cmp -s five5.png three5.png && complain '5 taps are as 3'
+# Pictures do not tell what their scenes are called.
+brume none.pov $film --temporal 5 +Oswitch
+all_same five switch
+brume none.pov $film --temporal 1,2,1 +Oweights
+all_same three weights
+brume five.pov $film --temporal 1 +Ooff
+all_same none off
+fog 'temporal { 2, 4, 8, 4, 2 }' >written.pov
+brume written.pov $film +Owritten
+all_same five written
+
+new_case 'in parts'
+for parts in 2 3 8; do
+    rm -f part*
+    for i in $(seq $parts); do
+        brume five.pov $film +Opart --shard $i/$parts
+        exits 0
+    done
+    all_same five part
+done
+brume five.pov $film +Osub +SF4 +EF4
+same sub4.png five4.png
+
+new_case 'a picture depends on the frames around it'
+rm five6.png
+brume five.pov $film +Ofive --resume +V
+exits 0
+is "$(grep -c 'left out' said)" 8
+all_same switch five
+
+new_case 'killed, and taken up again'
+for t in 10 4 7 2 9 5; do
+    "$BRUME" five.pov $film +Okilled --resume >printed 2>said &
+    pid=$!
+    sleep "0.$(printf %02d $t)"
+    kill -KILL $pid 2>/dev/null
+    wait $pid 2>/dev/null
+    for picture in killed?.png; do
+        [ ! -e "$picture" ] || same "five${picture#killed}" "$picture"
+    done
+done
+brume five.pov $film +Okilled --resume
+exits 0
+all_same five killed
+
+new_case 'a still has no filter'
+brume five.pov --explain
+grep -q '^filter  *no' printed || complain 'a filter is planned'
+brume five.pov --explain +KFF9
+grep -q '^filter  *yes .*mean over' printed || complain 'no filter is planned'
+
+new_case 'what is wrong is told'
+fog 'temporal 4' >bad.pov
+brume bad.pov --check
+exits 1
+says 'weights of 1, 3 and 5 frames are known'
+fog 'temporal { 1, 2 }' >bad.pov
+brume bad.pov --check
+exits 1
+says 'weights are of an odd number of frames'
+fog 'temporal { 1, 0, 1 }' >bad.pov
+brume bad.pov --check
+exits 1
+says "the frame's own weight is 0"
+brume none.pov --temporal 7
+exits 2
+says 'neither 1, 3 or 5 frames nor weights'
+brume none.pov --temporal 1,2
+exits 2
+says 'is no odd number of weights'
+
+end_cases
