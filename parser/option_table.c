@@ -205,7 +205,7 @@ const struct option option_table[] = {
       .at = AT(frame_step), .low = 1, .high = MAX_FRAME, .initial = 1,
       .help = "render every Nth frame" },
     { .plus = "C", .ini = "Continue_Trace", .name = "resume", .set = set_flag,
-      .at = AT(resume), .help = "leave out pictures that are finished" },
+      .at = AT(resume), .help = "leave out what is finished" },
     { .name = "shard", .value = "i/n", .set = set_shard, .at = OPTION_NOWHERE,
       .help = "part I of N of the frames; or: slurm" },
 
@@ -221,7 +221,7 @@ const struct option option_table[] = {
       .words = preset_words, .help = "paper: the published choices" },
     { .name = "temporal", .value = "n", .set = set_temporal,
       .at = OPTION_NOWHERE,
-      .help = "light over 1, 3 or 5 frames, or by weights W,W,W" },
+      .help = "light over 1, 3, 5 frames, or W,W,W" },
     { .name = "transport", .value = "name", .set = set_transport,
       .at = AT(full_transport), .words = transport_words,
       .help = "pov, or full: all light, many bounces" },
