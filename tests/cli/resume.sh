@@ -150,13 +150,16 @@ exits 0
 all_same torn
 is "$(lines torn.frames.jsonl)" 10
 
-# Small pieces of time, other ones each run.
+# Other pieces of time each run, of a film that takes about a second.
 new_case 'killed at random, and taken up again'
+film='+W24 +H18 --spp 400 +KFF9'
+rm -f whole*
+brume s.pov $film +Owhole
 kills=0
-for t in 2 5 3 7 4 1 6 8 3 5 2 1 4 6 3 2 5 1 7 4; do
+for t in 20 05 31 12 44 08 26 17 03 38; do
     "$BRUME" s.pov $film +Okilled --resume >printed 2>said &
     pid=$!
-    sleep 0.0$t
+    sleep 0.$t
     kill -KILL $pid 2>/dev/null
     wait $pid 2>/dev/null
     status=$?
@@ -170,7 +173,7 @@ for t in 2 5 3 7 4 1 6 8 3 5 2 1 4 6 3 2 5 1 7 4; do
         kills=$((kills + 1))
     fi
 done
-[ "$kills" -gt 2 ] || complain "only $kills were killed in time"
+[ "$kills" -gt 1 ] || complain "only $kills were killed in time"
 brume s.pov $film +Okilled --resume
 exits 0
 all_same killed
