@@ -19,7 +19,8 @@ static bool same_numbers(const radiance_lattice *a, const radiance_lattice *b)
 {
     return a->numbers == b->numbers && a->eye == b->eye &&
            a->fluence == b->fluence && a->flux == b->flux &&
-           a->phase == b->phase && a->g == b->g && a->ball == b->ball;
+           a->phase == b->phase && a->g == b->g && a->ball == b->ball &&
+           a->thick == b->thick;
 }
 
 /* The most by which the logarithm of a phase function changes per radian;
@@ -59,7 +60,7 @@ void filter_view_init(struct filter_view *v, const struct flat *from,
         v->offset[i] = (int)fmin(fmax(rint(v->shift[i]), -1e6), 1e6);
         v->aligned = v->aligned && fabs(v->shift[i] - v->offset[i]) < 1e-3;
     }
-    v->gain = a->ball ? (float)(field->unit / from->unit) : 1.0f;
+    v->gain = a->ball && !a->thick ? (float)(field->unit / from->unit) : 1.0f;
     double steep = a->eye >= 0 ? steepness(a) : 0.0;
     if (steep > 0.0) {
         v->from = from;
