@@ -130,11 +130,35 @@ static bool add_material(const struct prepare *job,
     return true;
 }
 
+static bool same_containers(const container_set *a, const container_set *b)
+{
+    for (int i = 0; i < a->count; i++)
+        if (!container_has(b, a->shape[i]))
+            return false;
+    return a->count == b->count;
+}
+
+/* Whether it matters on which side of a face the eye's rays leave it. */
+static bool is_on_face(const struct flat *f, const container_set *set)
+{
+    vec3 eye = f->view.view.location;
+    for (int i = 0; i < 27; i++) {
+        container_set beside;
+        vec3 d = vec3_make((float)(i % 3 - 1), (float)(i / 3 % 3 - 1),
+                           (float)(i / 9 - 1));
+        inside_find(&f->view, inside_beside(eye, d), &beside);
+        if (!same_containers(set, &beside))
+            return true;
+    }
+    return false;
+}
+
 /* The containers of a perspective camera's eye, found once. */
 static bool add_eye(struct flat *f, struct brume_error *err)
 {
     container_set set;
     inside_find(&f->view, f->view.view.location, &set);
+    f->view.eye_on_face = is_on_face(f, &set);
     int32_t *out = FLAT_EXTEND(f, camera_containers, (size_t)set.count, err);
     for (int i = 0; out && i < set.count; i++)
         out[i] = set.shape[i];

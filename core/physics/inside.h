@@ -30,6 +30,14 @@ HD bool inside_shape(const flat_scene *s, int32_t shape, vec3 p)
     return csg_primitive(s, shape, &at);
 }
 
+/* A point beside p, on its way along d, about of length 1: where p is on a face
+ * it is on the side to which d leads. */
+HD vec3 inside_beside(vec3 p, vec3 d)
+{
+    float size = hd_max(fabsf(p.x), hd_max(fabsf(p.y), fabsf(p.z)));
+    return vec3_mad(p, 1.52587891e-05f * hd_max(size, 1.0f), d);
+}
+
 /* All hollow shapes with media around the point p. */
 HD void inside_find(const flat_scene *s, vec3 p, container_set *set)
 {

@@ -76,10 +76,12 @@ HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                      s->unit;
 }
 
-HD void pixel_containers(const flat_scene *s, vec3 o, container_set *set)
+/* Containers of a ray's origin. */
+HD void pixel_containers(const flat_scene *s, vec3 o, vec3 d,
+                         container_set *set)
 {
-    if (s->view.orthographic) {
-        inside_find(s, o, set);
+    if (s->view.orthographic || s->eye_on_face) {
+        inside_find(s, inside_beside(o, d), set);
         return;
     }
     set->count = (int32_t)s->camera_containers_count;
@@ -116,7 +118,7 @@ HD rng pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
     float u = ((float)x + spread[0]) / (float)job->width - 0.5f;
     float v = 0.5f - ((float)y + spread[1]) / (float)job->height;
     camera_ray(&s->view, u, v, o, d);
-    pixel_containers(s, *o, set);
+    pixel_containers(s, *o, *d, set);
     *along = spread[2];
     return rng_make(job->seed, job->frame, i, index);
 }

@@ -320,6 +320,8 @@ typedef struct {
     scene_reach reach;
     radiance_lattice field;
     rgb background;
+    int32_t eye_on_face;    /* 1: of some container: each ray has to look
+                               where it goes                               */
     int32_t atmosphere;     /* an interior, or -1                          */
     int32_t media_multiple, surfaces_indirect, environment, physical_units;
     int32_t scatters;       /* some medium has sigma_s > 0                 */

@@ -203,6 +203,49 @@ static void test_container__scales(void **state)
     }
 }
 
+/* What a narrow window shows of a container, on whose face the eye is. */
+static double from_face(struct brume_shape container, double eye,
+                        enum brume_camera_kind kind)
+{
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, -eye, 1e-4);
+    struct brume_camera c = BRUME_CAMERA_INIT;
+    c.kind = kind;
+    c.location[2] = eye;
+    c.right[0] = c.up[1] = 1e-4;
+    if (kind == BRUME_CAMERA_ORTHOGRAPHIC)
+        c.right[0] = c.up[1] = 1e-4 * fabs(eye);
+    struct brume_medium m = truth_medium(SIGMA / fabs(eye), 0, 0);
+    assert_true(brume_set_camera(s, &c, truth_error()));
+    truth_fill(s, container, &m);
+    return truth_render(s, 4, 4).opacity;
+}
+
+/* At the front it sees all of the medium, at the back nothing. */
+static void test_container__face(void **state)
+{
+    (void)state;
+    const enum brume_camera_kind kinds[2] = {BRUME_CAMERA_PERSPECTIVE,
+                                             BRUME_CAMERA_ORTHOGRAPHIC};
+    const double sizes[4] = {1, 0.3, 1e-3, 12345};
+    double truth = 1 - exp(-2 * SIGMA);
+    for (int i = 0; i < 8; i++) {
+        double size = sizes[i / 2];
+        struct brume_shape ball = BRUME_SHAPE_INIT;
+        ball.kind = BRUME_SHAPE_SPHERE;
+        ball.radius = size;
+        double box = from_face(truth_box(size, -size, size), -size,
+                               kinds[i % 2]);
+        double sphere = from_face(ball, -size, kinds[i % 2]);
+        double behind = from_face(truth_box(size, -2 * size, -size), -size,
+                                  kinds[i % 2]);
+        if (!(fabs(box - truth) < 1e-4 && fabs(sphere - truth) < 1e-4))
+            fail_msg("size %g: opacities %g and %g, not %g", size, box, sphere,
+                     truth);
+        assert_true(behind == 0);
+    }
+}
+
 /* Grains in a row, the last ones in the way: a tree finds them. */
 static void test_container__many_parts(void **state)
 {
@@ -260,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_container__chords),
         cmocka_unit_test(test_container__scales),
+        cmocka_unit_test(test_container__face),
         cmocka_unit_test(test_container__many_parts),
         cmocka_unit_test(test_container__deep),
     };
