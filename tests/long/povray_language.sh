@@ -32,22 +32,16 @@ cat ./*.txt | awk -v work="$work" '
     /^-- (set|diag|unlike)/ { begin(folder "/special"); next }
     { print >to }'
 
-# What #debug wrote: the text between the head and the first message.
-debug_output()
-{
-    sed -n '1,/^==== \[Parsing/d; /^File .*Parse Warning/,$d; p' |
-        sed 's/Parsing *[0-9]*K tokens//g' |
-        sed '/^\(Fatal error\|Render failed\|File \|==== \)/,$d' | tr -d ' \n\t\r'
-}
-
 cd "$work" || exit 2
 for folder in [0-9]*; do
     [ -e "$folder/out" ] && [ ! -e "$folder/special" ] || continue
     # Bytes and NULs are spelled out in the cases.
     grep -q '%[xN]' "$folder/scene.pov" && continue
     echo '#debug "\n"' >>"$folder/scene.pov"
-    got=$(cd "$folder" && povray -D -F +W1 +H1 +WT1 -GR -GS +Llibrary \
-        scene.pov 2>&1 | debug_output)
+    # Into a file: what the terminal gets is mixed with reports of progress.
+    (cd "$folder" && povray -D -F +W1 +H1 +WT1 -GR -GS +Llibrary +GDdebug \
+        scene.pov >/dev/null 2>&1)
+    got=$(tr -d ' \n\t\r' <"$folder/debug")
     want=$(tr -d ' \n\t\r' <"$folder/out")
     for file in "$folder"/wrote/*; do
         [ -e "$file" ] || continue
