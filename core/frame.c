@@ -232,6 +232,7 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
            b->gather(j->state, photons.job.power / (double)photons.job.count,
                      err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
+    stats->side = (double)flat->view.field.side / flat->unit;
     stats->bytes = radiance_sum_bytes(flat) +
                    flat->radiance_count * sizeof(float);
     stats->seconds = timer_seconds() - start;

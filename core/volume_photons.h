@@ -64,6 +64,7 @@ struct brume_photon_stats {
     double roulette;            /* what chance took more than it gave      */
     double dropped;             /* of photons with more than 65536 events  */
     uint64_t cells;             /* of the field                            */
+    double side;                /* of a cell, in scene units               */
     uint64_t bytes;             /* of the field, its sums included         */
     uint64_t ring;              /* bytes of fields kept for the filter     */
     double seconds, seconds_filter;

@@ -9,7 +9,10 @@
 #include <time.h>
 
 const struct measure_series measure_series[] = {
-    {"path", BRUME_INTEGRATOR_PATH, true},
+    {"path", BRUME_INTEGRATOR_PATH, true, false, 1},
+    {"photon", BRUME_INTEGRATOR_PHOTON, false, false, 1},
+    {"photon fine", BRUME_INTEGRATOR_PHOTON, false, false, 0.5},
+    {"photon paper", BRUME_INTEGRATOR_PHOTON, false, true, 1},
 };
 const int measure_series_count = sizeof measure_series / sizeof *measure_series;
 
@@ -17,8 +20,10 @@ const double measure_goals[MEASURE_GOALS] = {0.10, 0.03, 0.01};
 
 /* Of the budget, for a reference that has to be rendered. */
 #define REFERENCE_SHARE 0.5
-/* Samples of a series' first row. */
+/* Samples and photons of a series' first row, photons of any. */
 #define FIRST_SPP 4
+#define FIRST_PHOTONS 62500u
+#define MOST_PHOTONS 10000000000u
 /* Rows never share random numbers with a reference of the scene's own seed. */
 #define ROW_SEED 0x6d65617375726521u
 
@@ -30,8 +35,9 @@ struct sweep {
     brume_scene *scene;
     float *reference; /* 3 per pixel                             */
     double start;
-    int next[MAX_SERIES];    /* samples of a series' next row; 0: done  */
-    double wait[MAX_SERIES]; /* seconds it will take                */
+    double side;                             /* of the scene's own cells */
+    struct measure_setting next[MAX_SERIES]; /* spp 0: the series is done */
+    double wait[MAX_SERIES];                 /* seconds it will take      */
 };
 
 /* ---- the reference ------------------------------------------------------ */
@@ -160,32 +166,71 @@ static double cpu_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool render_row(struct sweep *s, int series, int spp,
-                       struct measure_row *row, struct brume_error *err)
+/* Relative difference of the means of pictures in a part of them. */
+static double mean_off(const float *picture, const float *reference, int width,
+                       const int part[4])
+{
+    double off = 0.0, all = 0.0;
+    for (int y = part[1]; y < part[3]; y++)
+        for (int i = 3 * part[0]; i < 3 * part[2]; i++) {
+            size_t at = 3 * (size_t)y * (size_t)width + (size_t)i;
+            off += (double)picture[at] - (double)reference[at];
+            all += (double)reference[at];
+        }
+    return all > 0.0 ? off / all : 0.0;
+}
+
+static struct brume_options row_options(const struct measure *m,
+                                        const struct measure_setting *set)
+{
+    const struct measure_series *series = &measure_series[set->series];
+    struct brume_options o = m->options;
+    o.integrator = series->integrator;
+    o.spp = set->spp;
+    o.seed ^= ROW_SEED;
+    if (set->photons > 0)
+        o.photons.count = set->photons;
+    if (set->spacing > 0.0)
+        o.photons.spacing = set->spacing;
+    if (series->paper) {
+        o.photons.gather = BRUME_GATHER_BALL;
+        o.photons.single = BRUME_SINGLE_FIELD;
+        o.photons.emission = BRUME_EMISSION_PHOTONS;
+    }
+    return o;
+}
+
+/* *needed: photons were traced, if the integrator has any. */
+static bool render_row(struct sweep *s, const struct measure_setting *set,
+                       struct measure_row *row, bool *needed,
+                       struct brume_error *err)
 {
     const struct measure *m = s->m;
-    struct brume_options options = m->options;
+    struct brume_options options = row_options(m, set);
     struct brume_frame frame = {0};
     int part[4];
     find_part(&m->options, part);
-    options.integrator = measure_series[series].integrator;
-    options.spp = spp;
-    options.seed ^= ROW_SEED;
     double cpu = cpu_seconds();
     if (!brume_render(s->scene, &options, &frame, err))
         return false;
+    const struct brume_stats *stats = &frame.stats;
     *row = (struct measure_row){
-        .series = series,
-        .spp = spp,
+        .set = *set,
         .cpu_seconds = cpu_seconds() - cpu,
-        .prepare_seconds = frame.stats.seconds_prepare,
-        .seconds = frame.stats.seconds_prepare + frame.stats.seconds_render,
-        .estimate = frame.stats.error,
+        .prepare_seconds = stats->seconds_prepare,
+        .photon_seconds = stats->photons.seconds,
+        .seconds = stats->seconds_prepare + stats->photons.seconds +
+                   stats->seconds_render,
+        .estimate = stats->error,
         .difference = measure_difference(frame.radiance, s->reference,
                                          m->options.width, part),
+        .bias = mean_off(frame.radiance, s->reference, m->options.width, part),
     };
     double square = row->difference * row->difference - m->noise * m->noise;
     row->error = square > 0.0 ? sqrt(square) : 0.0;
+    *needed = set->photons == 0 || stats->photons.traced > 0;
+    if (s->side == 0.0)
+        s->side = stats->photons.side;
     brume_frame_free(&frame);
     return true;
 }
@@ -195,9 +240,17 @@ static int soonest(const struct sweep *s)
 {
     int best = -1;
     for (int i = 0; i < measure_series_count; i++)
-        if (s->next[i] && (best < 0 || s->wait[i] < s->wait[best]))
+        if (s->next[i].spp && (best < 0 || s->wait[i] < s->wait[best]))
             best = i;
     return best;
+}
+
+static const struct measure_row *last_of(const struct measure *m, int series)
+{
+    for (int i = m->rows - 1; i >= 0; i--)
+        if (m->row[i].set.series == series)
+            return &m->row[i];
+    return NULL;
 }
 
 /* Below the noise of the reference nothing can be told; a bias does not fall
@@ -205,31 +258,68 @@ static int soonest(const struct sweep *s)
 static bool goes_on(const struct measure *m, const struct measure_row *row,
                     const struct measure_row *before)
 {
-    if (row->spp > BRUME_MAX_SPP / 2 || row->difference == 0.0)
+    if (row->set.spp > BRUME_MAX_SPP / 2 || row->set.photons > MOST_PHOTONS ||
+        row->difference == 0.0)
         return false;
-    if (row->difference < 1.2 * m->noise)
+    if (measure_uncertain(m, row))
         return false;
-    return measure_series[row->series].unbiased || !before ||
+    return measure_series[row->set.series].unbiased || !before ||
            row->error < 0.97 * before->error;
 }
 
-static const struct measure_row *last_of(const struct measure *m, int series)
+/* Twice as much of what the error comes from: of samples, of photons, or of
+ * both where neither is most of it. */
+static void plan_next(struct sweep *s, const struct measure_row *row)
 {
-    for (int i = m->rows - 1; i >= 0; i--)
-        if (m->row[i].series == series)
-            return &m->row[i];
-    return NULL;
+    struct measure_setting *next = &s->next[row->set.series];
+    double noise = row->estimate * row->estimate;
+    double rest = row->error * row->error - noise;
+    int spp = row->set.photons == 0 || !(noise < rest / 3.0) ? 2 : 1;
+    unsigned photons = rest > noise / 3.0 ? 2 : 1;
+    *next = row->set;
+    next->spp *= spp;
+    next->photons *= photons;
+    s->wait[row->set.series] = row->prepare_seconds +
+                               photons * row->photon_seconds +
+                               spp * (row->seconds - row->prepare_seconds -
+                                      row->photon_seconds);
+}
+
+/* The first row of a series; of cells of another size, once it is known what
+ * the scene's own are. */
+static void begin_series(struct sweep *s, int i)
+{
+    const struct measure *m = s->m;
+    const struct measure_series *series = &measure_series[i];
+    bool photons = series->integrator != BRUME_INTEGRATOR_PATH;
+    if ((m->only >= 0 && (int)series->integrator != m->only) ||
+        (series->cells != 1.0 && s->side == 0.0) ||
+        (series->paper && m->options.photons.gather == BRUME_GATHER_BALL))
+        return;
+    s->next[i] = (struct measure_setting){
+        .series = i,
+        .spp = FIRST_SPP,
+        .photons = photons ? FIRST_PHOTONS : 0,
+        .spacing = series->cells != 1.0 ? s->side * series->cells : 0.0,
+    };
 }
 
 static bool add_row(struct sweep *s, int series, struct brume_error *err)
 {
     struct measure *m = s->m;
     struct measure_row row;
-    if (!render_row(s, series, s->next[series], &row, err))
+    bool needed, told = s->side > 0.0;
+    const struct measure_row *before = last_of(m, series);
+    if (!render_row(s, &s->next[series], &row, &needed, err))
         return false;
-    bool more = goes_on(m, &row, last_of(m, series));
-    s->next[series] = more ? 2 * row.spp : 0;
-    s->wait[series] = 2.0 * row.seconds - row.prepare_seconds;
+    s->next[series].spp = 0;
+    if (!needed)
+        return true;
+    if (goes_on(m, &row, before))
+        plan_next(s, &row);
+    for (int i = 0; !told && s->side > 0.0 && i < measure_series_count; i++)
+        if (measure_series[i].cells != 1.0)
+            begin_series(s, i);
     m->row[m->rows++] = row;
     measure_conclude(m);
     return measure_csv(m, err);
@@ -239,12 +329,11 @@ static bool add_rows(struct sweep *s, struct brume_error *err)
 {
     struct measure *m = s->m;
     for (int i = 0; i < measure_series_count; i++)
-        if (m->only < 0 || (int)measure_series[i].integrator == m->only)
-            s->next[i] = FIRST_SPP;
+        begin_series(s, i);
     for (int i; m->rows < MEASURE_MAX_ROWS && (i = soonest(s)) >= 0;) {
         double end = timer_seconds() - s->start + s->wait[i];
         if (m->rows > 0 && end > m->budget)
-            s->next[i] = 0;
+            s->next[i].spp = 0;
         else if (!add_row(s, i, err))
             return false;
     }
@@ -258,60 +347,4 @@ bool measure_run(struct measure *m, brume_scene *scene, struct brume_error *err)
     ok = ok && add_rows(&s, err) && measure_svg(m, err);
     free(s.reference);
     return ok;
-}
-
-/* ---- conclusions -------------------------------------------------------- */
-
-static bool beats(const struct measure_row *a, const struct measure_row *b)
-{
-    bool no_worse = a->seconds <= b->seconds && a->error <= b->error;
-    return no_worse && (a->seconds < b->seconds || a->error < b->error);
-}
-
-static void take_row(struct measure_advice *to, const struct measure_row *row)
-{
-    if (to->series >= 0 && to->seconds <= row->seconds)
-        return;
-    *to = (struct measure_advice){row->series, row->spp, row->seconds,
-                                  row->error, true};
-}
-
-/* From a row whose error is noise to one with enough samples. */
-static void extrapolate(struct measure_advice *to,
-                        const struct measure_row *row, double goal)
-{
-    double factor = row->error / goal * (row->error / goal);
-    double spp = ceil(factor * row->spp);
-    double seconds = row->prepare_seconds +
-                     spp / row->spp * (row->seconds - row->prepare_seconds);
-    if (!measure_series[row->series].unbiased || !(spp <= BRUME_MAX_SPP) ||
-        (to->series >= 0 && to->seconds <= seconds))
-        return;
-    *to = (struct measure_advice){row->series, (int)spp, seconds, goal, false};
-}
-
-static struct measure_advice advise(const struct measure *m, double goal)
-{
-    struct measure_advice best = {.series = -1};
-    for (int i = 0; i < m->rows; i++)
-        if (m->row[i].error <= goal)
-            take_row(&best, &m->row[i]);
-    for (int i = 0; best.series < 0 && i < measure_series_count; i++) {
-        const struct measure_row *last = last_of(m, i);
-        if (last)
-            extrapolate(&best, last, goal);
-    }
-    return best;
-}
-
-void measure_conclude(struct measure *m)
-{
-    for (int i = 0; i < m->rows; i++) {
-        m->row[i].front = true;
-        for (int k = 0; k < m->rows; k++)
-            if (beats(&m->row[k], &m->row[i]))
-                m->row[i].front = false;
-    }
-    for (int i = 0; i < MEASURE_GOALS; i++)
-        m->advice[i] = advise(m, measure_goals[i]);
 }

@@ -2,6 +2,7 @@
 #include "lib/output.h"
 #include "lib/plot.h"
 #include "parser/measure.h"
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,11 +21,21 @@ static const char *integrator_name(enum brume_integrator integrator)
     return "";
 }
 
-void measure_switches(int series, int spp, char *text, size_t size)
+void measure_switches(const struct measure_setting *set, char *text,
+                      size_t size)
 {
-    const struct measure_series *s = &measure_series[series];
-    snprintf(text, size, "--integrator %s --spp %d",
-             integrator_name(s->integrator), spp);
+    const struct measure_series *s = &measure_series[set->series];
+    int n = snprintf(text, size, "--integrator %s",
+                     integrator_name(s->integrator));
+    if (s->paper)
+        n += snprintf(text + n, size - (size_t)n, " --preset paper");
+    if (set->photons > 0)
+        n += snprintf(text + n, size - (size_t)n, " --photons %" PRIu64,
+                      set->photons);
+    if (set->spacing > 0.0)
+        n += snprintf(text + n, size - (size_t)n, " --field-spacing %.6g",
+                      set->spacing);
+    snprintf(text + n, size - (size_t)n, " --spp %d", set->spp);
 }
 
 /* ---- the table ---------------------------------------------------------- */
@@ -44,24 +55,22 @@ static void print_reference(const struct measure *m, FILE *to)
         fputs("; its noise is not known, and counted as error\n\n", to);
 }
 
-/* An error that is a small part of what the reference's noise adds to it. */
-static bool uncertain(const struct measure *m, const struct measure_row *row)
-{
-    return m->noise > 0.0 && row->difference < 1.2 * m->noise;
-}
-
 static void print_rows(const struct measure *m, FILE *to)
 {
-    char switches[96];
+    char switches[MEASURE_SWITCHES];
     bool told = false;
-    fputs("    error    seconds  CPU s      estimated  switches\n", to);
+    fputs("    error    bias       seconds    CPU s      estimated  "
+          "switches\n",
+          to);
     for (int i = 0; i < m->rows; i++) {
         const struct measure_row *r = &m->row[i];
-        bool doubt = uncertain(m, r);
-        measure_switches(r->series, r->spp, switches, sizeof switches);
-        fprintf(to, "%c%c  %6.3g %%  %-9.3g  %-9.3g  %6.3g %%   %s\n",
+        bool doubt = measure_uncertain(m, r);
+        measure_switches(&r->set, switches, sizeof switches);
+        fprintf(to,
+                "%c%c  %6.3g %%  %+6.2f %%  %-9.3g  %-9.3g  %6.3g %%   %s\n",
                 r->front ? '*' : ' ', doubt ? '?' : ' ', 100.0 * r->error,
-                r->seconds, r->cpu_seconds, 100.0 * r->estimate, switches);
+                100.0 * r->bias, r->seconds, r->cpu_seconds,
+                100.0 * r->estimate, switches);
         told |= doubt;
     }
     fputs("* no other is both quicker and better\n", to);
@@ -71,16 +80,16 @@ static void print_rows(const struct measure *m, FILE *to)
 
 static void print_advice(const struct measure *m, FILE *to)
 {
-    char switches[96];
+    char switches[MEASURE_SWITCHES];
     fputs("\n", to);
     for (int i = 0; i < MEASURE_GOALS; i++) {
         const struct measure_advice *a = &m->advice[i];
         fprintf(to, "for %2.0f %%: ", 100.0 * measure_goals[i]);
-        if (a->series < 0) {
+        if (a->set.series < 0) {
             fputs("not reached\n", to);
             continue;
         }
-        measure_switches(a->series, a->spp, switches, sizeof switches);
+        measure_switches(&a->set, switches, sizeof switches);
         fprintf(to, "%s (%.3g s%s)\n", switches, a->seconds,
                 a->measured ? "" : ", extrapolated");
     }
@@ -97,16 +106,17 @@ void measure_table(const struct measure *m, FILE *to)
 
 static void write_csv(const struct measure *m, FILE *to)
 {
-    char switches[96];
-    fputs("series,switches,spp,seconds,cpu_seconds,error,difference,"
-          "estimate,reference_noise,front\n",
+    char switches[MEASURE_SWITCHES];
+    fputs("series,switches,spp,photons,spacing,seconds,cpu_seconds,error,"
+          "bias,difference,estimate,reference_noise,front\n",
           to);
     for (int i = 0; i < m->rows; i++) {
         const struct measure_row *r = &m->row[i];
-        measure_switches(r->series, r->spp, switches, sizeof switches);
-        fprintf(to, "%s,%s,%d,%.6g,%.6g,%.6g,%.6g,",
-                measure_series[r->series].name, switches, r->spp, r->seconds,
-                r->cpu_seconds, r->error, r->difference);
+        measure_switches(&r->set, switches, sizeof switches);
+        fprintf(to, "%s,%s,%d,%" PRIu64 ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,",
+                measure_series[r->set.series].name, switches, r->set.spp,
+                r->set.photons, r->set.spacing, r->seconds, r->cpu_seconds,
+                r->error, r->bias, r->difference);
         if (isfinite(r->estimate))
             fprintf(to, "%.6g", r->estimate);
         fputc(',', to);
@@ -155,7 +165,7 @@ static void write_svg(const struct measure *m, struct points *points,
     snprintf(title, sizeof title, "%s, %d x %d: error against time", m->scene,
              m->options.width, m->options.height);
     for (int i = 0; i < m->rows; i++) {
-        add_point(&points[m->row[i].series], &m->row[i]);
+        add_point(&points[m->row[i].set.series], &m->row[i]);
         if (m->row[i].front)
             add_point(&points[front], &m->row[i]);
     }

@@ -90,6 +90,7 @@ struct options {
     double error, seconds;
     int threads;
     uint64_t seed, memory, photons;
+    double field_spacing;
     /* Of reading a scene; 0: the default of struct parse_limits. */
     int include_depth, macro_depth;
     uint64_t iterations, tokens;

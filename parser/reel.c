@@ -228,6 +228,8 @@ struct brume_options reel_options(struct reel *reel, int number,
     r.photons = scene->photons;
     if (o->photons > 0)
         r.photons.count = o->photons;
+    if (o->field_spacing > 0)
+        r.photons.spacing = o->field_spacing;
     if (o->preset) {
         r.photons.gather = BRUME_GATHER_BALL;
         r.photons.single = BRUME_SINGLE_FIELD;

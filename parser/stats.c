@@ -62,6 +62,7 @@ static bool put_photons(struct json *json, const struct brume_photon_stats *p)
               json_put_count(out, "stored", p->stored) &&
               json_put_count(out, "clipped", p->clipped) &&
               json_put_count(out, "cells", p->cells) &&
+              json_put_number(out, "side", p->side) &&
               json_put_count(out, "bytes", p->bytes) &&
               json_put_count(out, "ring", p->ring) &&
               json_put_number(out, "seconds", p->seconds) &&

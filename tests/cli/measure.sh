@@ -46,8 +46,8 @@ paste spp errors | awk '{ k[NR] = $2 * sqrt($1) }
         print "row", i, "of", NR; bad = 1 }
         exit bad || NR < 5 || k[NR] < k[1] / 1000 }' >told || complain "$(cat told)"
 
-new_case 'the CSV has ten columns, each sample count twice the one before'
-awk -F, 'NF != 10 { exit 1 }' slab.csv || complain 'not 10 columns'
+new_case 'the CSV has 13 columns, each sample count twice the one before'
+awk -F, 'NF != 13 { exit 1 }' slab.csv || complain 'not 13 columns'
 awk 'NR > 1 && $1 != 2 * before { exit 1 } { before = $1 }' spp ||
     complain "$(cat spp)"
 is "$(column reference_noise | sort -u)" 0

@@ -38,8 +38,10 @@ static void test_measure__difference_of_black(void **state)
 
 static void add(struct measure *m, int spp, double seconds, double error)
 {
-    m->row[m->rows++] = (struct measure_row){
-        .spp = spp, .seconds = seconds, .prepare_seconds = 1, .error = error};
+    m->row[m->rows++] = (struct measure_row){.set.spp = spp,
+                                             .seconds = seconds,
+                                             .prepare_seconds = 1,
+                                             .error = error};
 }
 
 static void test_measure__front(void **state)
@@ -68,12 +70,70 @@ static void test_measure__advice(void **state)
     add(&m, 16, 5, 0.06);
     measure_conclude(&m);
     assert_true(m.advice[0].measured);
-    assert_int_equal(m.advice[0].spp, 8);
+    assert_int_equal(m.advice[0].set.spp, 8);
     assert_float_equal(m.advice[0].seconds, 3, 1e-12);
     assert_false(m.advice[1].measured);
-    assert_int_equal(m.advice[1].spp, 64);
+    assert_int_equal(m.advice[1].set.spp, 64);
     assert_float_equal(m.advice[1].seconds, 1 + 4 * 4, 1e-9);
-    assert_int_equal(m.advice[2].spp, 576);
+    assert_int_equal(m.advice[2].set.spp, 576);
+}
+
+static void add_photons(struct measure *m, int spp, double seconds,
+                        double error)
+{
+    add(m, spp, seconds, error);
+    m->row[m->rows - 1].set.series = 1;
+    m->row[m->rows - 1].set.photons = 1000 * (uint64_t)spp;
+}
+
+/* Rows that fall as the cube root of the time go on so; half the error takes
+ * eight times as much. */
+static void test_measure__measured_slope(void **state)
+{
+    struct measure m = {.rows = 0};
+    (void)state;
+    add_photons(&m, 4, 1 + 1, 0.24);
+    add_photons(&m, 32, 1 + 8, 0.12);
+    add_photons(&m, 256, 1 + 64, 0.06);
+    measure_conclude(&m);
+    assert_false(m.advice[1].measured);
+    assert_int_equal(m.advice[1].set.series, 1);
+    assert_int_equal(m.advice[1].set.spp, 256 * 8);
+    assert_int_equal(m.advice[1].set.photons, 256 * 8 * 1000);
+    assert_float_equal(m.advice[1].seconds, 1 + 64 * 8, 1e-6);
+    /* 216 times as long: further than its bias is known. */
+    assert_int_equal(m.advice[2].set.series, -1);
+}
+
+/* What is left does not fall; one row alone tells nothing of a bias. */
+static void test_measure__bias_stays(void **state)
+{
+    struct measure m = {.rows = 0};
+    (void)state;
+    add_photons(&m, 4, 2, 0.051);
+    measure_conclude(&m);
+    assert_int_equal(m.advice[1].set.series, -1);
+    add_photons(&m, 8, 3, 0.0505);
+    add_photons(&m, 16, 5, 0.05);
+    measure_conclude(&m);
+    assert_int_equal(m.advice[1].set.series, -1);
+    assert_true(m.advice[0].measured);
+}
+
+static void test_measure__switches(void **state)
+{
+    char text[MEASURE_SWITCHES];
+    struct measure_setting path = {0, 8, 0, 0}, fine = {2, 4, 1000, 0.25},
+                           paper = {3, 16, 2000, 0};
+    (void)state;
+    measure_switches(&path, text, sizeof text);
+    assert_string_equal(text, "--integrator path --spp 8");
+    measure_switches(&fine, text, sizeof text);
+    assert_string_equal(text, "--integrator photon --photons 1000 "
+                              "--field-spacing 0.25 --spp 4");
+    measure_switches(&paper, text, sizeof text);
+    assert_string_equal(text, "--integrator photon --preset paper "
+                              "--photons 2000 --spp 16");
 }
 
 static void test_measure__no_rows(void **state)
@@ -82,7 +142,7 @@ static void test_measure__no_rows(void **state)
     (void)state;
     measure_conclude(&m);
     for (int i = 0; i < MEASURE_GOALS; i++)
-        assert_int_equal(m.advice[i].series, -1);
+        assert_int_equal(m.advice[i].set.series, -1);
 }
 
 /* An error so large that no number of samples would do. */
@@ -92,7 +152,7 @@ static void test_measure__out_of_reach(void **state)
     (void)state;
     add(&m, 4, 2, 50);
     measure_conclude(&m);
-    assert_int_equal(m.advice[2].series, -1);
+    assert_int_equal(m.advice[2].set.series, -1);
 }
 
 /* ---- the plot ----------------------------------------------------------- */
@@ -206,6 +266,9 @@ int main(void)
         cmocka_unit_test(test_measure__difference_of_black),
         cmocka_unit_test(test_measure__front),
         cmocka_unit_test(test_measure__advice),
+        cmocka_unit_test(test_measure__measured_slope),
+        cmocka_unit_test(test_measure__bias_stays),
+        cmocka_unit_test(test_measure__switches),
         cmocka_unit_test(test_measure__no_rows),
         cmocka_unit_test(test_measure__out_of_reach),
         cmocka_unit_test(test_plot__xml),
