@@ -26,15 +26,12 @@ static const struct backend backend_cuda = {.name = "cuda",
                                             .available = cuda_available};
 #endif
 
-/* By itself the GPU's, where there is one that has the integrator: the pictures
- * are the same. */
+/* By itself the GPU's, where there is one: the pictures are the same. */
 static const struct backend *choose_backend(const struct brume_options *o,
                                             struct brume_error *err)
 {
     char why[256] = "";
-    bool photons = o->integrator == BRUME_INTEGRATOR_PHOTON;
-    if (o->backend == BRUME_BACKEND_CPU ||
-        (o->backend == BRUME_BACKEND_AUTO && photons && !backend_cuda.trace))
+    if (o->backend == BRUME_BACKEND_CPU)
         return &backend_cpu;
     if (backend_cuda.available(why, sizeof why))
         return &backend_cuda;
@@ -160,24 +157,6 @@ static void warn(const struct frame_job *j, const char *text)
         j->options->warn(j->options->user, text);
 }
 
-/* Bounds by samples may be exceeded now and then. */
-static void report_bounds(const struct frame_job *j)
-{
-    const struct brume_stats *s = &j->out->stats;
-    bool sampled = j->flat->procedures_count > 0;
-    char text[256];
-    if (s->majorant_exceeded <= (sampled ? s->lookups / 1000 : 0))
-        return;
-    snprintf(text, sizeof text,
-             "a density exceeded its bound at %llu of %llu places: %s",
-             (unsigned long long)s->majorant_exceeded,
-             (unsigned long long)s->lookups,
-             sampled ? "functions finer than samples told; what is drawn is "
-                       "right, but with more noise"
-                     : "this is a fault of the program");
-    warn(j, text);
-}
-
 /* What the user must know of how the goal was met. */
 static void report_goal(const struct frame_job *j)
 {
@@ -198,7 +177,13 @@ static void report_goal(const struct frame_job *j)
                  MAX_ACTIVE, (unsigned long long)s->overflow);
         warn(j, text);
     }
-    report_bounds(j);
+    if (s->majorant_exceeded > 0) {
+        snprintf(text, sizeof text,
+                 "a density exceeded its bound at %llu "
+                 "places: this is a fault of the program",
+                 (unsigned long long)s->majorant_exceeded);
+        warn(j, text);
+    }
     if (s->rejected > 0) {
         snprintf(text, sizeof text,
                  "%llu samples were not finite and were "
@@ -229,9 +214,6 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
     const struct backend *b = j->backend;
     const struct flat *flat = j->flat;
     struct photons photons;
-    if (!b->trace)
-        return brume_fail(err, BRUME_ERR_USAGE,
-                          "backend %s has no integrator photon yet", b->name);
     if (!photons_plan(flat, j->options, &photons, err))
         return false;
     double start = j->sampling = timer_seconds();

@@ -307,13 +307,17 @@ uint64_t radiance_sum_bytes(const struct flat *flat)
     return flat->radiance_count * sizeof(int64_t);
 }
 
-void radiance_resolve(struct flat *flat, const int64_t *sum, double unit)
+double radiance_scale(const radiance_lattice *f, double unit)
 {
-    const radiance_lattice *f = &flat->view.field;
     double side = (double)f->side, r = (double)f->radius;
     double volume = f->ball ? 4.0 / 3.0 * 3.14159265358979 * r * r * r
                             : side * side;
-    double scale = unit / (RADIANCE_ONE * volume);
+    return unit / (RADIANCE_ONE * volume);
+}
+
+void radiance_resolve(struct flat *flat, const int64_t *sum, double unit)
+{
+    double scale = radiance_scale(&flat->view.field, unit);
     for (size_t i = 0; i < flat->radiance_count; i++)
         flat->radiance[i] = (float)((double)sum[i] * scale);
 }

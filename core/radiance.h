@@ -12,6 +12,10 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
 /* Bytes of the sums that photons are added up in. */
 uint64_t radiance_sum_bytes(const struct flat *flat);
 
-/* From sums to the field: `unit` is the power of the mean photon. */
+/* What a sum is multiplied by to be the field's number: `unit` is the power of
+ * the mean photon. */
+double radiance_scale(const radiance_lattice *field, double unit);
+
+/* From sums to the field. */
 void radiance_resolve(struct flat *flat, const int64_t *sum, double unit);
 #endif

@@ -34,14 +34,9 @@ static void trace_batch(void *context, size_t index, int thread)
 
 static void add_books(const photon_books *b, struct brume_photon_stats *out)
 {
-    out->emitted += b->emitted;
-    out->units += b->units;
-    out->media += b->media;
-    out->surfaces += b->surfaces;
-    out->walls += b->walls;
-    out->escaped += b->escaped;
-    out->roulette += b->roulette;
-    out->dropped += b->dropped;
+#define X(name) out->name += b->name;
+    PHOTON_BOOKS(X)
+#undef X
 }
 
 static void add_batch(const photon_counters *c, struct brume_stats *out)

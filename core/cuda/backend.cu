@@ -2,12 +2,8 @@
  * a thread takes a pixel and runs its samples in order, so that a picture is
  * the same from run to run. */
 #include <cstdio>
-#include <cstdlib>
 #include <new>
-#include "core/cuda/sample.cuh"
-extern "C" {
-#include "core/backend.h"
-}
+#include "core/cuda/backend.cuh"
 
 namespace
 {
@@ -20,12 +16,8 @@ const uint32_t samples_per_launch = 8;
 const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
                                        &sample_all};
 
-struct cuda_state {
-    backend_frame frame;
-    device_arena arena;
-    sample_job job;
-    const sample_stage *stage;
-};
+const photon_stage *const photon_kernels[] = {&photons_media, &photons_lit,
+                                              &photons_fire, &photons_all};
 
 bool cuda_available(char *why, size_t size)
 {
@@ -41,8 +33,10 @@ bool cuda_available(char *why, size_t size)
 void cuda_close(void *state)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
-    if (s)
+    if (s) {
         device_arena_free(&s->arena);
+        photons_close(s);
+    }
     delete s;
 }
 
@@ -51,7 +45,8 @@ size_t frame_bytes(const cuda_state *s)
     const flat_scene *view = &s->frame.flat->view;
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
-                                sizeof(film_pixel));
+                                sizeof(film_pixel)) +
+                   photons_bytes(&s->frame);
 #define X(type, name) bytes += device_round(view->name##_count * sizeof(type));
     SCENE_ARRAYS(X)
 #undef X
@@ -75,6 +70,7 @@ bool upload(cuda_state *s, brume_error *err)
     }
     SCENE_ARRAYS(X)
 #undef X
+    s->cells = const_cast<float *>(s->job.scene.radiance);
     return good;
 }
 
@@ -88,12 +84,13 @@ bool start_film(cuda_state *s, brume_error *err)
                         err);
 }
 
-const sample_stage *choose_kernel(int needs)
+/* The first of a list that can do all that the scene needs. */
+template <typename stage>
+const stage *choose(const stage *const *list, int needs)
 {
-    size_t i = 0;
-    while (needs & ~kernels[i]->may)
-        i++;
-    return kernels[i];
+    while (needs & ~(*list)->may)
+        list++;
+    return *list;
 }
 
 void describe_job(sample_job *job, const backend_frame *frame)
@@ -114,10 +111,11 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
         return nullptr;
     }
     s->frame = *frame;
-    s->stage = choose_kernel(frame->stages->needs);
+    s->stage = choose(kernels, frame->stages->needs);
+    s->photons = choose(photon_kernels, frame->stages->needs);
     describe_job(&s->job, frame);
     if (device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
-        start_film(s, err))
+        start_film(s, err) && photons_open(s, err))
         return s;
     cuda_close(s);
     return nullptr;
@@ -130,9 +128,7 @@ bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
             cudaMemcpy(&c, s->job.count, sizeof c, cudaMemcpyDeviceToHost),
             "reading the counters", err))
         return false;
-#define X(name) out->name += c.name;
-    TRACK_COUNTERS(X)
-#undef X
+    cuda_add_track(&c, out);
     return true;
 }
 
@@ -169,7 +165,14 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
 
 }
 
+void cuda_add_track(const device_counters *c, brume_stats *out)
+{
+#define X(name) out->name += c->name;
+    TRACK_COUNTERS(X)
+#undef X
+}
+
 extern "C" const struct backend backend_cuda = {
-    "cuda",  cuda_available, cuda_open,   nullptr,    nullptr,
-    nullptr, nullptr,        cuda_sample, cuda_close,
+    "cuda",    cuda_available, cuda_open,   cuda_trace, cuda_gather,
+    cuda_take, cuda_put,       cuda_sample, cuda_close,
 };

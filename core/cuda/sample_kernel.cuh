@@ -12,7 +12,8 @@ const int block_size = block_width * block_height;
 const int blocks_at_once = 16;
 
 /* The pixel of a thread; false: it has none. */
-__device__ bool find_pixel(const sample_job *job, int *x, int *y, size_t *at)
+__device__ __forceinline__ bool find_pixel(const sample_job *job, int *x,
+                                           int *y, size_t *at)
 {
     *x = job->x0 + static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     *y = job->y0 + static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
@@ -22,7 +23,8 @@ __device__ bool find_pixel(const sample_job *job, int *x, int *y, size_t *at)
     return *x < job->x1 && *y < job->y1;
 }
 
-__device__ void add_counters(device_counters *sum, const track_counters *c)
+__device__ __forceinline__ void add_counters(device_counters *sum,
+                                             const track_counters *c)
 {
 #define X(name)                                                                \
     if (c->name > 0)                                                           \
@@ -32,7 +34,7 @@ __device__ void add_counters(device_counters *sum, const track_counters *c)
 }
 
 __global__ void __launch_bounds__(block_size, blocks_at_once)
-sample_lines(sample_job job)
+sample_lines(const __grid_constant__ sample_job job)
 {
     int x, y;
     size_t at;
@@ -45,7 +47,7 @@ sample_lines(sample_job job)
 }
 
 __global__ void __launch_bounds__(block_size, blocks_at_once)
-sample_paths(sample_job job)
+sample_paths(const __grid_constant__ sample_job job)
 {
     int x, y;
     size_t at;

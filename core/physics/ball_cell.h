@@ -61,8 +61,7 @@ HD void ball_add_point(const flat_scene *s, ball_media *b, vec3 x)
     container_set set;
     inside_find(s, x, &set);
     for (int i = -1; i < container_count(&set); i++) {
-        int32_t interior = i < 0 ? s->atmosphere
-                                 : s->shapes[set.shape[i]].interior;
+        int32_t interior = container_interior(s, &set, i);
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count; k++)
             ball_add(s, b, s->interior_media[s->interiors[interior].first + k],
                      x);
@@ -80,9 +79,10 @@ HD ball_media ball_media_at(const flat_scene *s, vec3 x)
         ball_add_point(s, &b, vec3_mad(x, r, ball_offset(k / 2)));
     }
     for (int i = 0; i < part_bound(b.count); i++) {
-        b.density[i] = rgb_scale(b.density[i], 0.5f / (float)BALL_PAIRS);
-        b.thickness += radiance_thickness(s, &s->media[b.medium[i]],
-                                          b.density[i]);
+        rgb *density = &b.density[part_place(i)];
+        *density = rgb_scale(*density, 0.5f / (float)BALL_PAIRS);
+        b.thickness += radiance_thickness(
+            s, &s->media[b.medium[part_place(i)]], *density);
     }
     return b;
 }
@@ -96,11 +96,11 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
     if (!(b->thickness > 0.0f))
         return sum;
     for (int i = 0; i < part_bound(b->count); i++) {
-        const flat_medium *m = &s->media[b->medium[i]];
+        const flat_medium *m = &s->media[b->medium[part_place(i)]];
+        rgb sigma = rgb_mul(m->sigma_s, b->density[part_place(i)]);
         float phase = phase_eval_between(m->phase, m->g, d, wi) *
                       phase_pov_scale(m->phase);
-        sum = rgb_add(sum, rgb_scale(rgb_mul(m->sigma_s, b->density[i]),
-                                     phase));
+        sum = rgb_add(sum, rgb_scale(sigma, phase));
     }
     return rgb_scale(sum, light_medium_factor(s) / b->thickness);
 }

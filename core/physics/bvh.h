@@ -47,9 +47,8 @@ HD void bvh_search(const flat_scene *s, const bvh_ray *r, uint32_t node,
     }
 }
 
-/* Nearest hit behind `after` and before distance t_max. */
-HD_APART ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
-                             const ray_hit *after, real t_max)
+HD_APART ray_hit bvh_seek(const flat_scene *s, const bvh_ray *r,
+                          const ray_hit *after, real t_max)
 {
     ray_hit best = hit_none(t_max);
     best.key = 0;           /* t_max itself is excluded */
@@ -60,6 +59,15 @@ HD_APART ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
     if (scene_may(MAY_KDTREE) && s->kd_count > 0)
         kd_search(s, r, after, &best);
     return best;
+}
+
+/* Nearest hit behind `after` and before distance t_max. */
+HD ray_hit bvh_nearest(const flat_scene *s, const bvh_ray *r,
+                       const ray_hit *after, real t_max)
+{
+    HD_COPY(bvh_ray, r);
+    HD_COPY(ray_hit, after);
+    return bvh_seek(s, HD_COPIED(r), HD_COPIED(after), t_max);
 }
 
 #endif

@@ -27,6 +27,26 @@
 #define HD_APART static __attribute__((noinline, unused))
 #endif
 
+/* One that is called at many places: there is one of it on a GPU, whose store
+ * of instructions is small. */
+#ifdef __CUDACC__
+#define HD_SHARED static __noinline__ __device__
+#else
+#define HD_SHARED static inline
+#endif
+
+/* On a GPU, what such a function is given a pointer to lies in memory for good:
+ * so it is given copies, and what it made of them is taken back. */
+#ifdef __CUDACC__
+#define HD_COPY(type, p) type p##_copy = *(p)
+#define HD_COPIED(p) (&p##_copy)
+#define HD_RETURN(p) (*(p) = p##_copy)
+#else
+#define HD_COPY(type, p) ((void)0)
+#define HD_COPIED(p) (p)
+#define HD_RETURN(p) ((void)0)
+#endif
+
 /* Like fminf and fmaxf, which are calls on a plain x86-64, but for NaN: the
  * second argument is returned if either is NaN. */
 HD float hd_min(float a, float b)

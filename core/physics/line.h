@@ -19,13 +19,14 @@
 #include "core/physics/rng.h"
 #include "core/physics/walk.h"
 
-/* The last is the field's. */
-enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY) ? 20 : 2 };
+/* The last is the field's. Where there is one more at most, each has a place
+ * of its own and a GPU keeps both in registers. */
+enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY)    ? 12
+                       : (SCENE_MAY & MAY_FIELD) ? 2 : 1 };
 
 typedef struct {
     double tau[3];          /* optical depth: long sums, so double         */
     rgb radiance;           /* emitted toward the ray's origin, attenuated */
-    uint32_t overflow;      /* media that were left out                    */
 } line_integral;
 
 /* A voxel lattice along the ray. */
@@ -50,9 +51,18 @@ typedef struct {
     rgb sigma_t, source;
 } line_point;
 
-HD void line_add_lattice(line_job *job, vec3 o, vec3 d)
+/* One without planes. */
+HD void line_no_lattice(line_lattice *l)
 {
-    line_lattice *l = &job->lattice[part_place(job->lattices++)];
+    l->o = l->d = l->inverse = vec3_make(0.0f, 0.0f, 0.0f);
+    l->next = vec3_make(INFINITY, INFINITY, INFINITY);
+}
+
+/* `place`: where it lies if there is one other at most. */
+HD void line_add_lattice(line_job *job, int place, vec3 o, vec3 d)
+{
+    int i = job->lattices++;
+    line_lattice *l = &job->lattice[scene_may(MAY_MANY) ? i : place];
     l->o = o;
     l->d = d;
     l->inverse = vec3_make(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
@@ -61,11 +71,14 @@ HD void line_add_lattice(line_job *job, vec3 o, vec3 d)
 
 HD void line_add_lattices(line_job *job, const flat_medium *m)
 {
-    for (int i = 0; i < m->planes && job->lattices < LINE_LATTICES - 1; i++) {
+    int room = scene_may(MAY_MANY) ? LINE_LATTICES - 1 - job->lattices : 1;
+    int planes = part_bound(m->planes);
+    for (int i = 0; i < planes && i < room; i++) {
         const flat_field *f = &job->s->fields[m->plane_field[i]];
         float shift = job->s->grids[f->grid].nearest ? 0.5f : 0.0f;
-        line_add_lattice(job, vec3_add(affine_point(&f->to_index, job->o),
-                                       vec3_make(shift, shift, shift)),
+        line_add_lattice(job, 0,
+                         vec3_add(affine_point(&f->to_index, job->o),
+                                  vec3_make(shift, shift, shift)),
                          affine_vector(&f->to_index, job->d));
     }
 }
@@ -76,13 +89,13 @@ HD void line_add_field(line_job *job)
     const radiance_lattice *f = &job->s->field;
     vec3 o = vec3_sub(job->o, vec3_make(f->origin[0], f->origin[1],
                                         f->origin[2]));
-    line_add_lattice(job, vec3_scale(o, 1.0f / f->side),
+    line_add_lattice(job, LINE_LATTICES - 1, vec3_scale(o, 1.0f / f->side),
                      vec3_scale(job->d, 1.0f / f->side));
 }
 
 HD int line_lattices(const line_job *job)
 {
-    return part_bound(job->lattices);
+    return scene_may(MAY_MANY) ? job->lattices : (int)LINE_LATTICES;
 }
 
 /* Distance of the first plane of one axis beyond t; none beyond 2^30 voxels
@@ -145,11 +158,11 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
     if (!job->s->field.thick)
         out.source = ball;
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &job->s->media[w->part[i].medium];
-        const majorant_cell *bound = &w->part[i].bound;
+        const flat_medium *m = walk_medium(job->s, w, i);
+        const majorant_cell *bound = &walk_part(w, i)->bound;
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
-        field_point x = lattice_point(job->s, &w->part[i], p, t);
+        field_point x = lattice_point(job->s, walk_part(w, i), p, t);
         rgb density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_mul(m->sigma_t, density));
         if (scene_may(MAY_FIELD) && job->s->field.thick)
@@ -167,8 +180,8 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
             continue;
         rgb q = medium_source(job->s, m, &x, density);
         if (!rgb_is_black(q))
-            q = rgb_scale(q, glow_ray_share(job->s, w->part[i].medium, p, t,
-                                            job->p_dir));
+            q = rgb_scale(q, glow_ray_share(job->s, walk_part(w, i)->medium, p,
+                                            t, job->p_dir));
         out.source = rgb_add(out.source, q);
     }
     return out;
@@ -204,9 +217,11 @@ HD void line_half(line_integral *out, const line_point *p, float length)
 
 HD bool line_piece_empty(const media_walk *w)
 {
-    for (int i = 0; i < walk_parts(w); i++)
-        if (w->part[i].bound.density != 0.0f || w->part[i].bound.rate != 0.0f)
+    for (int i = 0; i < walk_parts(w); i++) {
+        const majorant_cell *bound = &walk_part(w, i)->bound;
+        if (bound->density != 0.0f || bound->rate != 0.0f)
             return false;
+    }
     return true;
 }
 
@@ -215,8 +230,8 @@ HD float line_depth(const line_job *job, const media_walk *w, float length)
 {
     float sum = 0.0f;
     for (int i = 0; i < walk_parts(w); i++)
-        sum += rgb_max(job->s->media[w->part[i].medium].sigma_t) *
-               w->part[i].bound.density;
+        sum += rgb_max(walk_medium(job->s, w, i)->sigma_t) *
+               walk_part(w, i)->bound.density;
     return sum * length;
 }
 
@@ -262,17 +277,8 @@ HD float line_jitter(const flat_scene *s, rng *random)
     return s->procedures_count > 0 ? rng_float(random) : 0.5f;
 }
 
-HD line_integral line_zero(void)
-{
-    line_integral line;
-    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
-    line.radiance = rgb_gray(0.0f);
-    line.overflow = 0;
-    return line;
-}
-
 /* Adds the ray from t0 to t1 (finite) through the media of `set` to `out`; d
- * of unit length; jitter in [0, 1). Call with line_zero first; it can be
+ * of unit length; jitter in [0, 1). Call with out zeroed first; it can be
  * continued over further segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
@@ -281,7 +287,6 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
 {
     media_walk w;
     walk_begin(s, &w, set, true, o, d, t0, t1);
-    out->overflow += w.overflow;
     if (w.count == 0)
         return;
     line_job job;
@@ -295,8 +300,10 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
     job.lattices = 0;
     job.jitter = jitter;
     job.sampled = false;
+    for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)
+        line_no_lattice(&job.lattice[i]);
     for (int i = 0; i < walk_parts(&w); i++) {
-        const flat_medium *m = &s->media[w.part[i].medium];
+        const flat_medium *m = walk_medium(s, &w, i);
         line_add_lattices(&job, m);
         job.sampled = job.sampled || m->sampled != 0;
     }

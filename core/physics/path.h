@@ -139,8 +139,7 @@ HD rgb path_scattered(const flat_scene *s, const path_state *p, float t,
     rgb sum = rgb_gray(0.0f);
     *sigma_s = 0.0f;
     for (int i = -1; i < container_count(&p->inside); i++) {
-        int32_t interior = i < 0 ? s->atmosphere
-                                 : s->shapes[p->inside.shape[i]].interior;
+        int32_t interior = container_interior(s, &p->inside, i);
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
              k++) {
             const flat_medium *m = &s->media[
@@ -266,8 +265,7 @@ HD bool path_medium_at(const flat_scene *s, const container_set *set,
                        int medium)
 {
     for (int i = -1; i < container_count(set); i++) {
-        int32_t interior = i < 0 ? s->atmosphere
-                                 : s->shapes[set->shape[i]].interior;
+        int32_t interior = container_interior(s, set, i);
         if (interior < 0)
             continue;
         const flat_interior *in = &s->interiors[interior];
@@ -360,8 +358,7 @@ HD float path_thickness(const flat_scene *s, const container_set *set, vec3 x)
 {
     float sum = 0.0f;
     for (int i = -1; i < container_count(set); i++) {
-        int32_t interior = i < 0 ? s->atmosphere
-                                 : s->shapes[set->shape[i]].interior;
+        int32_t interior = container_interior(s, set, i);
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
              k++) {
             const flat_medium *m = &s->media[

@@ -66,16 +66,16 @@ HD void path_point_at(const flat_scene *s, path_state *p,
     rgb source = rgb_gray(0.0f);
     out->all_s = out->all_a = out->all_t = source;
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
-        const majorant_cell *bound = &w->part[i].bound;
-        out->sigma_s[i] = rgb_gray(0.0f);
+        const flat_medium *m = walk_medium(s, w, i);
+        const majorant_cell *bound = &walk_part(w, i)->bound;
+        out->sigma_s[part_place(i)] = rgb_gray(0.0f);
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
-        field_point at = lattice_point(s, &w->part[i], x, t);
+        field_point at = lattice_point(s, walk_part(w, i), x, t);
         rgb density = medium_density(s, m, &at);
         p->count->lookups++;
-        out->sigma_s[i] = rgb_mul(m->sigma_s, density);
-        out->all_s = rgb_add(out->all_s, out->sigma_s[i]);
+        out->sigma_s[part_place(i)] = rgb_mul(m->sigma_s, density);
+        out->all_s = rgb_add(out->all_s, out->sigma_s[part_place(i)]);
         out->all_a = rgb_add(out->all_a, rgb_mul(m->sigma_a, density));
         out->all_t = rgb_add(out->all_t, rgb_mul(m->sigma_t, density));
         if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
@@ -84,7 +84,8 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         rgb q = medium_source(s, m, &at, density);
         if (rgb_is_black(q))
             continue;
-        float share = glow_ray_share(s, w->part[i].medium, x, t, p->p_dir);
+        float share = glow_ray_share(s, walk_part(w, i)->medium, x, t,
+                                     p->p_dir);
         source = rgb_add(source, rgb_scale(q, share));
     }
     if (!rgb_is_black(source))
@@ -99,8 +100,8 @@ HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
-        const majorant_cell *b = &w->part[i].bound;
-        const flat_medium *m = &s->media[w->part[i].medium];
+        const majorant_cell *b = &walk_part(w, i)->bound;
+        const flat_medium *m = walk_medium(s, w, i);
         sum = rgb_add(sum, rgb_scale(m->bound, b->density));
         if (scene_may(MAY_EMISSION) && emission && !m->uniform)
             sum = rgb_add(sum, rgb_gray(b->rate));
@@ -134,7 +135,7 @@ HD rgb path_uniform_source(const flat_scene *s, const path_state *p,
     rgb sum = rgb_gray(0.0f);
     field_point anywhere = field_point_make(s, -1, p->o);
     for (int i = 0; i < walk_parts(w) && !p->straight; i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
+        const flat_medium *m = walk_medium(s, w, i);
         if (scene_may(MAY_EMISSION) && m->uniform && m->emits)
             sum = rgb_add(sum, medium_source(s, m, &anywhere,
                                              rgb_gray(m->outside.density)));
@@ -204,9 +205,9 @@ HD int path_collide(path_state *p, const media_walk *w,
     }
     float x = rng_fine(&p->random) * m;
     for (int i = 0; i < walk_parts(w); i++) {
-        float sigma = rgb_get(at->sigma_s[i], p->driver);
+        float sigma = rgb_get(at->sigma_s[part_place(i)], p->driver);
         if (x < p->boost * sigma) {
-            rgb ratio = rgb_scale(at->sigma_s[i], 1.0f / sigma);
+            rgb ratio = rgb_scale(at->sigma_s[part_place(i)], 1.0f / sigma);
             p->beta = rgb_mul(p->beta, rgb_scale(ratio, 1.0f / p->boost));
             p->r_u = rgb_mul(p->r_u, ratio);
             *which = i;
@@ -257,7 +258,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
             int event = path_collide(p, w, &at, majorant, &which);
             out->t = t;
             if (event == PATH_SCATTERED) {
-                out->medium = w->part[part_place(which)].medium;
+                out->medium = walk_part(w, which)->medium;
                 out->sigma_s = rgb_mean(at.all_s);
                 p->count->collisions++;
             }
@@ -277,10 +278,10 @@ HD float path_middle(const flat_scene *s, const path_state *p,
     vec3 x = vec3_mad(p->o, t, p->d);
     *all = 0.0f;
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
-        if (w->part[i].bound.density == 0.0f)
+        const flat_medium *m = walk_medium(s, w, i);
+        if (walk_part(w, i)->bound.density == 0.0f)
             continue;
-        field_point at = lattice_point(s, &w->part[i], x, t);
+        field_point at = lattice_point(s, walk_part(w, i), x, t);
         rgb density = medium_density(s, m, &at);
         sum += rgb_max(rgb_mul(m->sigma_s, density));
         *all += rgb_max(rgb_mul(m->sigma_t, density));
@@ -335,7 +336,7 @@ HD void path_look(const flat_scene *s, path_state *p, float t1)
 HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
 {
     for (int i = 0; i < walk_parts(w); i++)
-        if (!rgb_is_black(s->media[w->part[i].medium].sigma_s))
+        if (!rgb_is_black(walk_medium(s, w, i)->sigma_s))
             return true;
     return false;
 }
@@ -343,7 +344,9 @@ HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
 /* Where nothing scatters, the line integral is exact. */
 HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
 {
-    line_integral line = line_zero();
+    line_integral line;
+    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line.radiance = rgb_gray(0.0f);
     line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
                    false, line_jitter(s, &p->random), &line);
     path_add(p, rgb_mul(p->beta, line.radiance));

@@ -87,7 +87,7 @@ HD bool photon_goes_on(const flat_scene *s, photon_state *p,
         photon_lay(s, p, c, f->t, beta, r_u);
     f->at.t = f->t;
     if (f->event == PATH_SCATTERED)
-        f->at.medium = f->walk.part[part_place(which)].medium;
+        f->at.medium = walk_part(&f->walk, which)->medium;
     return f->event == PATH_THROUGH;
 }
 

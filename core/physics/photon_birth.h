@@ -57,9 +57,14 @@ typedef struct {
  * over the channels. `units` is what POV-Ray's units of light add after the
  * birth; `walls` what came straight to surfaces without an end, which give
  * light on their own account; `roulette` what chance took more than it gave. */
+#define PHOTON_BOOKS(X)                                                       \
+    X(emitted) X(units)                                                       \
+    X(media) X(surfaces) X(walls) X(escaped) X(roulette) X(dropped)
+
 typedef struct {
-    double emitted, units;
-    double media, surfaces, walls, escaped, roulette, dropped;
+#define X(name) double name;
+    PHOTON_BOOKS(X)
+#undef X
 } photon_books;
 
 typedef struct {
@@ -146,9 +151,9 @@ HD vec3 photon_aim_cone(const flat_scene *s, const flat_light *l, vec3 lamp,
         return warp_frame_to_world(warp_frame(near.axis), d);
     }
     far = photon_cone(s, l, lamp, true);
-    const photon_aim *a = u < 0.5f ? &near : &far;
-    d = warp_cone(u < 0.5f ? 2.0f * u : 2.0f * u - 1.0f, v, a->size);
-    d = warp_frame_to_world(warp_frame(a->axis), d);
+    photon_aim a = u < 0.5f ? near : far;
+    d = warp_cone(u < 0.5f ? 2.0f * u : 2.0f * u - 1.0f, v, a.size);
+    d = warp_frame_to_world(warp_frame(a.axis), d);
     *measure = 2.0f / (photon_in_cone(&near, d) + photon_in_cone(&far, d));
     return d;
 }

@@ -64,7 +64,6 @@ HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                    film_pixel *out, track_counters *count)
 {
     march_result m = march_line(s, set, o, d, along);
-    count->overflow += m.overflow;
     if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
         count->rejected++;
         return;
@@ -87,8 +86,8 @@ HD void pixel_containers(const flat_scene *s, vec3 o, vec3 d,
     }
     set->count = (int32_t)s->camera_containers_count;
     set->lost = 0;
-    for (int i = 0; i < set->count; i++)
-        set->shape[i] = s->camera_containers[i];
+    for (int i = 0; i < container_count(set); i++)
+        set->shape[part_place(i)] = s->camera_containers[i];
 }
 
 /* Numbers of a sample that fill the unit cube evenly with those of the other

@@ -195,16 +195,20 @@ HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
     return true;
 }
 
+HD bool radiance_cross(const flat_scene *s, radiance_walk *w, int axis)
+{
+    w->cell[axis] += w->d[axis] > 0.0f ? 1 : -1;
+    w->next[axis] = radiance_plane(w, axis);
+    return w->cell[axis] >= 0 && w->cell[axis] < 8 * s->field.bricks[axis];
+}
+
 /* Goes to the next cell; false beyond the lattice. */
 HD bool radiance_step(const flat_scene *s, radiance_walk *w)
 {
-    int axis = w->next[0] <= w->next[1] ? 0 : 1;
-    axis = w->next[axis] <= w->next[2] ? axis : 2;
-    w->cell[axis] += w->d[axis] > 0.0f ? 1 : -1;
-    if (w->cell[axis] < 0 || w->cell[axis] >= 8 * s->field.bricks[axis])
-        return false;
-    w->next[axis] = radiance_plane(w, axis);
-    return true;
+    bool y = !(w->next[0] <= w->next[1]);
+    if (!((y ? w->next[1] : w->next[0]) <= w->next[2]))
+        return radiance_cross(s, w, 2);
+    return y ? radiance_cross(s, w, 1) : radiance_cross(s, w, 0);
 }
 
 /* Lays the flight o + t d, t in [t0, t1], d of unit length, of a photon of

@@ -36,6 +36,18 @@ HD void rng_philox(uint32_t c[4], uint32_t key0, uint32_t key1)
     }
 }
 
+typedef struct {
+    uint32_t word[4];
+} rng_block;
+
+/* The block of a counter. */
+HD_SHARED rng_block rng_block_of(rng_block counter, uint32_t key0,
+                                 uint32_t key1)
+{
+    rng_philox(counter.word, key0, key1);
+    return counter;
+}
+
 /* Bijection in which every input bit moves every output bit: the finaliser
  * of splitmix64 [Steele, Lea, Flood 2014; constants: Stafford's mix 13]. */
 HD uint64_t rng_mix(uint64_t x)
@@ -65,9 +77,12 @@ HD rng rng_make(uint64_t seed, uint32_t frame, uint32_t pass, uint64_t path)
 HD uint32_t rng_u32(rng *r)
 {
     if (r->used == 4u) {
+        rng_block b;
         for (int i = 0; i < 4; i++)
-            r->word[i] = r->counter[i];
-        rng_philox(r->word, r->key[0], r->key[1]);
+            b.word[i] = r->counter[i];
+        b = rng_block_of(b, r->key[0], r->key[1]);
+        for (int i = 0; i < 4; i++)
+            r->word[i] = b.word[i];
         r->counter[3]++;
         r->used = 0u;
     }

@@ -26,11 +26,9 @@ HD void shadow_cross(const flat_scene *s, const ray_hit *h,
         container_leave(set, s->shapes[h->shape].container);
 }
 
-/* Transmittance from o over `distance` along the unit vector d, unbiased.
- * `set` holds the containers at o, and on return those at the end. */
-HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
-                            bool atmosphere, vec3 o, vec3 d, float distance,
-                            rng *random, track_counters *c)
+HD_APART rgb shadow_seek(const flat_scene *s, container_set *set,
+                         bool atmosphere, vec3 o, vec3 d, float distance,
+                         rng *random, track_counters *c)
 {
     bvh_ray r = bvh_ray_make(o, d);
     ray_hit after = hit_start(0.0f);
@@ -51,6 +49,21 @@ HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
         shadow_cross(s, &h, set);
         after = h;
     }
+}
+
+/* Transmittance from o over `distance` along the unit vector d, unbiased.
+ * `set` holds the containers at o, and on return those at the end. */
+HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
+                            bool atmosphere, vec3 o, vec3 d, float distance,
+                            rng *random, track_counters *c)
+{
+    HD_COPY(container_set, set);
+    HD_COPY(rng, random);
+    rgb left = shadow_seek(s, HD_COPIED(set), atmosphere, o, d, distance,
+                           HD_COPIED(random), c);
+    HD_RETURN(set);
+    HD_RETURN(random);
+    return left;
 }
 
 #endif

@@ -41,8 +41,8 @@ HD float single_bound(const flat_scene *s, const media_walk *w, bool *even)
     float sum = 0.0f;
     *even = true;
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
-        sum += rgb_max(m->sigma_s) * w->part[i].bound.density;
+        const flat_medium *m = walk_medium(s, w, i);
+        sum += rgb_max(m->sigma_s) * walk_part(w, i)->bound.density;
         *even = *even && m->uniform;
     }
     return sum;

@@ -33,7 +33,7 @@ HD rgb track_uniform(const flat_scene *s, const media_walk *w)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
+        const flat_medium *m = walk_medium(s, w, i);
         if (m->uniform)
             sum = rgb_add(sum, rgb_scale(m->sigma_t, m->outside.density));
     }
@@ -45,10 +45,10 @@ HD float track_majorant(const flat_scene *s, const media_walk *w)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
+        const flat_medium *m = walk_medium(s, w, i);
         if (!m->uniform)
             sum = rgb_add(sum, rgb_scale(m->sigma_t,
-                                         w->part[i].bound.density));
+                                         walk_part(w, i)->bound.density));
     }
     return rgb_max(sum);
 }
@@ -58,10 +58,10 @@ HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = &s->media[w->part[i].medium];
-        if (m->uniform || w->part[i].bound.density == 0.0f)
+        const flat_medium *m = walk_medium(s, w, i);
+        if (m->uniform || walk_part(w, i)->bound.density == 0.0f)
             continue;
-        field_point x = lattice_point(s, &w->part[i], p, t);
+        field_point x = lattice_point(s, walk_part(w, i), p, t);
         sum = rgb_add(sum, rgb_mul(m->sigma_t, medium_density(s, m, &x)));
     }
     return sum;
@@ -92,10 +92,9 @@ HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
     return true;
 }
 
-/* Unbiased transmittance from t0 to t1 through the media of `set`. */
-HD rgb track_transmittance(const flat_scene *s, const container_set *set,
-                           bool atmosphere, vec3 o, vec3 d, float t0,
-                           float t1, rng *r, track_counters *c)
+HD_APART rgb track_media(const flat_scene *s, const container_set *set,
+                         bool atmosphere, vec3 o, vec3 d, float t0, float t1,
+                         rng *r, track_counters *c)
 {
     media_walk w;
     walk_begin(s, &w, set, atmosphere, o, d, t0, t1);
@@ -125,6 +124,19 @@ HD rgb track_transmittance(const flat_scene *s, const container_set *set,
     } while (walk_next(s, &w));
     return rgb_mul(product, rgb_make(fm_exp(uniform.r), fm_exp(uniform.g),
                                      fm_exp(uniform.b)));
+}
+
+/* Unbiased transmittance from t0 to t1 through the media of `set`. */
+HD rgb track_transmittance(const flat_scene *s, const container_set *set,
+                           bool atmosphere, vec3 o, vec3 d, float t0,
+                           float t1, rng *r, track_counters *c)
+{
+    HD_COPY(container_set, set);
+    HD_COPY(rng, r);
+    rgb left = track_media(s, HD_COPIED(set), atmosphere, o, d, t0, t1,
+                           HD_COPIED(r), c);
+    HD_RETURN(r);
+    return left;
 }
 
 #endif

@@ -34,6 +34,18 @@ HD int container_count(const container_set *set)
     return part_bound(set->count);
 }
 
+HD int32_t container_shape(const container_set *set, int i)
+{
+    return set->shape[part_place(i)];
+}
+
+/* The interior of container i, or -1; i = -1: the atmosphere's. */
+HD int32_t container_interior(const flat_scene *s, const container_set *set,
+                              int i)
+{
+    return i < 0 ? s->atmosphere : s->shapes[container_shape(set, i)].interior;
+}
+
 /* One medium's lattice along the ray. */
 typedef struct {
     int32_t medium;
@@ -58,6 +70,17 @@ typedef struct {
 HD int walk_parts(const media_walk *w)
 {
     return part_bound(w->count);
+}
+
+HD const lattice_walk *walk_part(const media_walk *w, int i)
+{
+    return &w->part[part_place(i)];
+}
+
+HD const flat_medium *walk_medium(const flat_scene *s, const media_walk *w,
+                                  int i)
+{
+    return &s->media[walk_part(w, i)->medium];
 }
 
 /* Distance at which the axis leaves its current cell. */
@@ -209,7 +232,7 @@ HD void walk_set_end(media_walk *w)
 {
     w->t_end = w->t_max;
     for (int i = 0; i < walk_parts(w); i++)
-        w->t_end = hd_min(w->t_end, w->part[i].t_end);
+        w->t_end = hd_min(w->t_end, walk_part(w, i)->t_end);
 }
 
 HD void walk_add_interior(const flat_scene *s, media_walk *w, int interior,
@@ -243,7 +266,7 @@ HD void walk_begin(const flat_scene *s, media_walk *w,
     if (atmosphere)
         walk_add_interior(s, w, s->atmosphere, o, d);
     for (int i = 0; i < container_count(set); i++)
-        walk_add_interior(s, w, s->shapes[set->shape[i]].interior, o, d);
+        walk_add_interior(s, w, container_interior(s, set, i), o, d);
     walk_set_end(w);
 }
 
@@ -254,8 +277,8 @@ HD bool walk_next(const flat_scene *s, media_walk *w)
         return false;
     w->t = w->t_end;
     for (int i = 0; i < walk_parts(w); i++)
-        while (w->part[i].t_end <= w->t)
-            lattice_step(s, &w->part[i]);
+        while (w->part[part_place(i)].t_end <= w->t)
+            lattice_step(s, &w->part[part_place(i)]);
     walk_set_end(w);
     return true;
 }
@@ -263,7 +286,7 @@ HD bool walk_next(const flat_scene *s, media_walk *w)
 HD bool container_has(const container_set *set, int shape)
 {
     for (int i = 0; i < container_count(set); i++)
-        if (set->shape[i] == shape)
+        if (container_shape(set, i) == shape)
             return true;
     return false;
 }
@@ -294,16 +317,16 @@ HD void container_leave_bounded(const flat_scene *s, container_set *set)
 {
     int kept = 0;
     for (int i = 0; i < container_count(set); i++)
-        if (container_is_unbounded(s, set->shape[i]))
-            set->shape[part_place(kept++)] = set->shape[i];
+        if (container_is_unbounded(s, container_shape(set, i)))
+            set->shape[part_place(kept++)] = container_shape(set, i);
     set->count = kept;
 }
 
 HD void container_leave(container_set *set, int shape)
 {
     for (int i = 0; i < container_count(set); i++)
-        if (set->shape[i] == shape) {
-            set->shape[i] = set->shape[part_place(--set->count)];
+        if (container_shape(set, i) == shape) {
+            set->shape[part_place(i)] = set->shape[part_place(--set->count)];
             return;
         }
 }

@@ -1,0 +1,41 @@
+/* backend.cuh - what the stages of the CUDA backend share. */
+#ifndef CORE_CUDA_BACKEND_CUH
+#define CORE_CUDA_BACKEND_CUH
+#include "core/cuda/photons.cuh"
+extern "C" {
+#include "core/backend.h"
+}
+
+/* Warps of one launch of the trace stage, at most. */
+const unsigned trace_warps = 8192;
+
+struct cuda_state {
+    backend_frame frame;
+    device_arena arena;
+    sample_job job;             /* its scene's pointers are the device's   */
+    const sample_stage *stage;
+    const photon_stage *photons;
+    float *cells;               /* of the field                            */
+    int64_t *sum;               /* of its cells; NULL without photons      */
+    photon_source *source;
+    photon_totals *total;
+    photon_books *books;        /* of each warp of a launch                */
+    photon_books *host_books;
+};
+
+/* photons.cu */
+
+/* Bytes of the device that photons need, beside the scene's. */
+size_t photons_bytes(const backend_frame *frame);
+/* Takes them, and clears the sums. */
+bool photons_open(cuda_state *s, brume_error *err);
+void photons_close(cuda_state *s);
+bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
+                brume_error *err);
+bool cuda_gather(void *state, double unit, brume_error *err);
+bool cuda_take(void *state, float *cells, brume_error *err);
+bool cuda_put(void *state, const float *cells, brume_error *err);
+
+/* backend.cu */
+void cuda_add_track(const device_counters *c, brume_stats *out);
+#endif
