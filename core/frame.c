@@ -157,6 +157,24 @@ static void warn(const struct frame_job *j, const char *text)
         j->options->warn(j->options->user, text);
 }
 
+/* Bounds by samples may be exceeded now and then. */
+static void report_bounds(const struct frame_job *j)
+{
+    const struct brume_stats *s = &j->out->stats;
+    bool sampled = j->flat->procedures_count > 0;
+    char text[256];
+    if (s->majorant_exceeded <= (sampled ? s->lookups / 1000 : 0))
+        return;
+    snprintf(text, sizeof text,
+             "a density exceeded its bound at %llu of %llu places: %s",
+             (unsigned long long)s->majorant_exceeded,
+             (unsigned long long)s->lookups,
+             sampled ? "functions finer than samples told; what is drawn is "
+                       "right, but with more noise"
+                     : "this is a fault of the program");
+    warn(j, text);
+}
+
 /* What the user must know of how the goal was met. */
 static void report_goal(const struct frame_job *j)
 {
@@ -177,13 +195,7 @@ static void report_goal(const struct frame_job *j)
                  MAX_ACTIVE, (unsigned long long)s->overflow);
         warn(j, text);
     }
-    if (s->majorant_exceeded > 0) {
-        snprintf(text, sizeof text,
-                 "a density exceeded its bound at %llu "
-                 "places: this is a fault of the program",
-                 (unsigned long long)s->majorant_exceeded);
-        warn(j, text);
-    }
+    report_bounds(j);
     if (s->rejected > 0) {
         snprintf(text, sizeof text,
                  "%llu samples were not finite and were "

@@ -2,6 +2,7 @@
  * that leads, each with a bound on the product of the density fields and a word
  * on whether something glows there. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include "core/blackbody.h"
 #include "core/prepare.h"
@@ -16,7 +17,8 @@
 
 /* The most extinction per unit-space length of a medium that scatters: events
  * lie about eight roundings of a place apart then. The albedo stays, and so
- * what comes back of light; nothing comes through the scene's width anyhow. */
+ * what comes back of light; nothing comes through the scene's width anyhow. A
+ * thin layer may let through what it should not: a warning tells. */
 #define MOST_EXTINCTION 2097152.0f
 
 /* Weight of finding emission along a ray against choosing a glowing voxel, in
@@ -449,6 +451,32 @@ static void set_coefficients(const struct prepare *job, flat_medium *m,
     m->g = (float)in->eccentricity;
 }
 
+/* Whether it is drawn less dense than it is. */
+static bool is_cut(const struct flat *f, const flat_medium *m)
+{
+    if (m->outside.density >= m->densest)
+        return true;
+    size_t cells = m->uniform ? 0
+                              : (size_t)m->cells[0] * (size_t)m->cells[1] *
+                                    (size_t)m->cells[2];
+    for (size_t i = 0; i < cells; i++)
+        if (f->cells[m->cell + i].density >= m->densest)
+            return true;
+    return false;
+}
+
+static void tell_cut(const struct prepare *job, const flat_medium *m)
+{
+    char text[200];
+    if (!is_cut(job->flat, m))
+        return;
+    snprintf(text, sizeof text,
+             "medium %zu scatters and is drawn with an extinction of at most "
+             "%.3g per unit of length: thin layers of it let too much through",
+             job->flat->media_count, (double)MOST_EXTINCTION * job->flat->unit);
+    warn(job, text);
+}
+
 static bool is_evaluated(const struct flat *f, int field)
 {
     return field >= 0 && f->fields[field].kind == FIELD_FUNCTION;
@@ -483,6 +511,7 @@ static bool add_medium(const struct prepare *job, const struct brume_medium *in,
     add_plane_field(f, &m, m.temperature);
     add_plane_field(f, &m, m.amount);
     set_functions(f, &m);
+    tell_cut(job, &m);
     flat_medium *slot = FLAT_EXTEND(f, media, 1, err);
     if (!slot)
         return false;

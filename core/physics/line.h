@@ -21,12 +21,13 @@
 
 /* The last is the field's. Where there is one more at most, each has a place
  * of its own and a GPU keeps both in registers. */
-enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY)    ? 12
+enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY)    ? 20
                        : (SCENE_MAY & MAY_FIELD) ? 2 : 1 };
 
 typedef struct {
     double tau[3];          /* optical depth: long sums, so double         */
     rgb radiance;           /* emitted toward the ray's origin, attenuated */
+    uint32_t overflow;      /* media that were left out                    */
 } line_integral;
 
 /* A voxel lattice along the ray. */
@@ -277,8 +278,17 @@ HD float line_jitter(const flat_scene *s, rng *random)
     return s->procedures_count > 0 ? rng_float(random) : 0.5f;
 }
 
+HD line_integral line_zero(void)
+{
+    line_integral line;
+    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line.radiance = rgb_gray(0.0f);
+    line.overflow = 0;
+    return line;
+}
+
 /* Adds the ray from t0 to t1 (finite) through the media of `set` to `out`; d
- * of unit length; jitter in [0, 1). Call with out zeroed first; it can be
+ * of unit length; jitter in [0, 1). Call with line_zero first; it can be
  * continued over further segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
@@ -287,6 +297,7 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
 {
     media_walk w;
     walk_begin(s, &w, set, true, o, d, t0, t1);
+    out->overflow += w.overflow;
     if (w.count == 0)
         return;
     line_job job;

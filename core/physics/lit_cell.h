@@ -14,9 +14,7 @@ HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
     bvh_ray r = bvh_ray_make(o, wi);
     ray_hit after = hit_start(0.0f);
     rgb left = rgb_gray(1.0f);
-    line_integral line;
-    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
-    line.radiance = rgb_gray(0.0f);
+    line_integral line = line_zero();
     for (;;) {
         ray_hit h = bvh_nearest(s, &r, &after, distance);
         if (h.shape >= 0)

@@ -13,6 +13,7 @@ typedef struct {
     rgb opacity;            /* 1 - transmittance of all up to the background */
     float depth;            /* distance of the first surface that is not
                                wholly transparent; infinite if none        */
+    uint32_t overflow;      /* media that were left out                    */
 } march_result;
 
 /* Adds the next segment; its emission passes the surfaces before it. */
@@ -35,8 +36,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
     out.radiance = out.background = rgb_gray(0.0f);
     out.depth = INFINITY;
     rgb pass = rgb_gray(1.0f);
-    line_integral line;
-    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    line_integral line = line_zero();
     container_set set = *inside;
     bvh_ray r = bvh_ray_make(o, d);
     ray_hit after = hit_start(0.0f);
@@ -59,6 +59,7 @@ HD march_result march_line(const flat_scene *s, const container_set *inside,
         after = h;
     }
     rgb left = rgb_mul(pass, line_transmittance(&line));
+    out.overflow = line.overflow;
     out.background = rgb_mul(left, sky_radiance(s, d));
     out.radiance = rgb_add(out.radiance, out.background);
     /* Exact for thin media where no surface is on the way. */

@@ -344,9 +344,7 @@ HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
 /* Where nothing scatters, the line integral is exact. */
 HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
 {
-    line_integral line;
-    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
-    line.radiance = rgb_gray(0.0f);
+    line_integral line = line_zero();
     line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
                    false, line_jitter(s, &p->random), &line);
     path_add(p, rgb_mul(p->beta, line.radiance));

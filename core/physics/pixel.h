@@ -64,6 +64,7 @@ HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                    film_pixel *out, track_counters *count)
 {
     march_result m = march_line(s, set, o, d, along);
+    count->overflow += m.overflow;
     if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
         count->rejected++;
         return;

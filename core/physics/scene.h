@@ -18,7 +18,7 @@ enum { FIELD_CONSTANT, FIELD_GRID, FIELD_FUNCTION };
 enum { BRICK_SIDE = 9, BRICK_FLOATS = 729 };    /* 8^3 samples + upper apron */
 enum { MAX_DENSITIES = 4, MAX_PLANES = 6 };
 /* Media, and shapes with media, at one place that are followed. */
-enum { MAX_ACTIVE = (SCENE_MAY & MAY_MANY) ? 8 : 1,
+enum { MAX_ACTIVE = (SCENE_MAY & MAY_MANY) ? 16 : 1,
        MAX_CONTAINERS = MAX_ACTIVE };
 
 /* A grid of bricks; samples at integers of index space. Each stored brick

@@ -3,6 +3,7 @@
  * from outside, from within, small, large and far away. */
 #include "truth.h"
 #include <string.h>
+#include "core/physics/scene.h"
 
 #define SIGMA 0.7
 
@@ -246,6 +247,28 @@ static void test_container__face(void **state)
     }
 }
 
+/* Boxes in boxes, each with its medium: all count, up to the limit. */
+static void test_container__overlapping(void **state)
+{
+    (void)state;
+    for (int count = 9; count <= MAX_ACTIVE + 1; count += 4) {
+        struct brume_globals globals = BRUME_GLOBALS_INIT;
+        brume_scene *s = truth_scene(&globals, 3, 1e-4);
+        for (int i = 0; i < count; i++) {
+            struct brume_medium m = truth_medium(0.01 * (i + 1), 0, 0);
+            double half = 1 + 0.01 * i;
+            truth_fill(s, truth_box(half, -half, half), &m);
+        }
+        struct estimate e = truth_render(s, 2, 4);
+        double tau = 0;
+        for (int i = 0; i < count; i++)
+            tau += 0.01 * (i + 1) * 2 * (1 + 0.01 * i);
+        bool all = fabs(e.opacity + expm1(-tau)) < 1e-5;
+        assert_true(all == (count <= MAX_ACTIVE));
+        assert_true(all == (e.stats.overflow == 0));
+    }
+}
+
 /* Grains in a row, the last ones in the way: a tree finds them. */
 static void test_container__many_parts(void **state)
 {
@@ -304,6 +327,7 @@ int main(void)
         cmocka_unit_test(test_container__chords),
         cmocka_unit_test(test_container__scales),
         cmocka_unit_test(test_container__face),
+        cmocka_unit_test(test_container__overlapping),
         cmocka_unit_test(test_container__many_parts),
         cmocka_unit_test(test_container__deep),
     };

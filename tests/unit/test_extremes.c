@@ -119,6 +119,49 @@ static void extremes__source_in_a_vacuum(void **state)
 
 /* ---- many bounces ---------------- */
 
+static void count_cuts(void *user, const char *text)
+{
+    *(int *)user += strstr(text, "extinction of at most") != NULL;
+}
+
+/* Of albedo 0.9 and that deep, under a white sky: what comes back is the plane
+ * albedo of the half-space, 1 - sqrt(1 - a) H(1) (METHODS.md 13.8). */
+static void check_deep(double half_width, double depth, int cuts)
+{
+    struct brume_globals globals = furnace_of(1.0);
+    brume_scene *s = truth_scene(&globals, 1.0, 1e-9);
+    struct brume_medium m = truth_medium(0.1 * depth, 0.9 * depth, 0.0);
+    truth_fill(s, truth_box(half_width, 0.0, 1.0), &m);
+    struct brume_options o = BRUME_OPTIONS_INIT;
+    struct brume_frame f;
+    int told = 0;
+    o.width = o.height = 32;
+    o.spp = 64;
+    o.warn = count_cuts;
+    o.user = &told;
+    assert_true(brume_render(s, &o, &f, truth_error()));
+    double sum = 0.0;
+    for (int i = 0; i < 3 * 32 * 32; i++)
+        sum += (double)f.radiance[i] / (3 * 32 * 32);
+    /* 65536 paths, each 0 or 1 at most */
+    check_near("a deep medium", sum, 0.4149475, 4 * 0.5 / 256 / 0.4149475);
+    check_near("its opacity", (double)f.opacity[0], 1.0, 0.0);
+    assert_int_equal(f.stats.majorant_exceeded, 0);
+    assert_int_equal(told, cuts);
+    brume_frame_free(&f);
+    brume_scene_free(s);
+}
+
+/* Beyond what the places of floats can tell apart it is cut, and told of. */
+static void extremes__deep_scattering(void **state)
+{
+    (void)state;
+    check_deep(1.0, 1e4, 0);
+    check_deep(1.0, 1e6, 0);
+    check_deep(100.0, 1e6, 1);
+    check_deep(1.0, 1e12, 1);
+}
+
 static struct estimate furnace_slab(double depth, double g, int pixels, int spp)
 {
     struct brume_globals globals = furnace_of(1.0);
@@ -707,6 +750,7 @@ int main(void)
         cmocka_unit_test(extremes__densities),
         cmocka_unit_test(extremes__source_in_a_vacuum),
         cmocka_unit_test(extremes__furnace_of_any_depth),
+        cmocka_unit_test(extremes__deep_scattering),
         cmocka_unit_test(extremes__furnace_of_any_peak),
         cmocka_unit_test(extremes__peaks_and_a_sun),
         cmocka_unit_test(extremes__denser_than_places),
