@@ -3,11 +3,28 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/filter_view.h"
+#include "core/physics/radiance.h"
 #include "lib/memory.h"
 #include "lib/thread.h"
 
-bool filter_keep(const struct flat *flat, struct filter_field *out,
-                 struct brume_error *err)
+/* Deposits in a cell are whole photons: the variance of their sum is that of
+ * Poisson's law, the sum of their squares. Chords of a cell, and flights that
+ * end in it, have a mean square of 0.9 of the mean times the side (measured:
+ * 0.8 to 1.0 for cells of any optical thickness below 1). What goes toward
+ * the eye has the phase function's mean square over its mean besides. */
+static double noise_of(const radiance_lattice *f, double power)
+{
+    float lobe_g;
+    double lobe = (double)radiance_lobe(f->phase, f->g, &lobe_g);
+    double g2 = (double)lobe_g * (double)lobe_g;
+    double peak = (1.0 + g2) / ((1.0 - g2) * (1.0 - g2));
+    double phase = (1.0 + lobe * lobe * (peak - 1.0)) * (double)WARP_INV_4PI;
+    return 0.9 * power / ((double)f->side * (double)f->side) *
+           (f->eye >= 0 && f->fluence < 0 ? phase : 1.0);
+}
+
+bool filter_keep(const struct flat *flat, double power,
+                 struct filter_field *out, struct brume_error *err)
 {
     *out = (struct filter_field){
         .lattice = flat->view.field,
@@ -15,6 +32,7 @@ bool filter_keep(const struct flat *flat, struct filter_field *out,
         .unit = flat->unit,
         .bricks = flat->radiance_slots_count,
         .count = flat->radiance_count,
+        .noise = noise_of(&flat->view.field, power),
     };
     memcpy(out->centre, flat->centre, sizeof out->centre);
     out->slots = memory_new(out->bricks, sizeof *out->slots, err);

@@ -14,11 +14,14 @@ struct filter_field {
     int32_t *slots;
     float *cells;               /* lattice.numbers each                    */
     size_t bricks, count;       /* of slots, of numbers in cells           */
+    double noise;               /* variance of a number over its mean, where
+                                   all channels have the same              */
 };
 
-/* A copy of the field of a frame that was traced. */
-bool filter_keep(const struct flat *flat, struct filter_field *out,
-                 struct brume_error *err);
+/* A copy of the field of a frame that was traced; `power` is that of its mean
+ * photon. */
+bool filter_keep(const struct flat *flat, double power,
+                 struct filter_field *out, struct brume_error *err);
 void filter_release(struct filter_field *field);
 uint64_t filter_bytes(const struct filter_field *field);
 
@@ -27,4 +30,9 @@ uint64_t filter_bytes(const struct filter_field *field);
  * that have a cell where one is wanted. */
 void filter_mean(struct flat *flat, const struct filter_field *const *fields,
                  const double *weights, int reach, int threads);
+
+/* The same with weights of its own for each cell, see filter_adapt.c. False:
+ * no memory. */
+bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
+                  int reach, int threads, struct brume_error *err);
 #endif

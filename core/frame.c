@@ -234,9 +234,8 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
                 b->trace(j->state, &photons.job, &j->out->stats, err);
     if (good && j->stopped)
         good = brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
-    good = good &&
-           b->gather(j->state, photons.job.power / (double)photons.job.count,
-                     err);
+    j->power = photons.job.power / (double)photons.job.count;
+    good = good && b->gather(j->state, j->power, err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
     stats->side = (double)flat->view.field.side / flat->unit;
     stats->bytes = radiance_sum_bytes(flat) +

@@ -15,6 +15,7 @@ struct frame_job {
     double start, sampling; /* seconds of the clock                    */
     double spent;           /* before the picture was begun            */
     uint64_t held;          /* bytes that a film holds besides         */
+    double power;           /* of the mean photon that was traced      */
     double error;           /* aimed at, 0: none                       */
     uint32_t most;          /* samples                                 */
     uint32_t pass;          /* samples of the current pass             */

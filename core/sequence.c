@@ -154,7 +154,7 @@ static bool keep_field(struct brume_film *film, struct shot *shot)
         return true;
     job->held = film->ring;
     if (!frame_trace(job, &shot->err) ||
-        !filter_keep(job->flat, &shot->field, &shot->err))
+        !filter_keep(job->flat, job->power, &shot->field, &shot->err))
         return false;
     shot->traced = true;
     film->ring += filter_bytes(&shot->field);

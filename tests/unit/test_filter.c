@@ -52,7 +52,7 @@ static struct flat *trace(brume_scene *scene, const struct brume_options *o,
     static struct frame_job job;
     assert_true(frame_open(&job, scene, o, &out, truth_error()));
     assert_true(frame_trace(&job, truth_error()));
-    assert_true(filter_keep(job.flat, field, truth_error()));
+    assert_true(filter_keep(job.flat, job.power, field, truth_error()));
     brume_scene_free(scene);
     struct flat *flat = job.flat;
     job.flat = NULL;
