@@ -17,8 +17,10 @@
 
 /* What a squared difference may be, over what its noise gives: that of a box
  * is known to a fifth or so, and changes that are not there would cost more
- * than those that are overlooked. */
+ * than those that are overlooked. The square of a box's mean difference may be
+ * so many times that of independent cells, which neighbours are not. */
 #define MARGIN 1.2
+#define MARGIN_OF_MEAN 10.0
 
 enum { PAD = 2, BOX = 2 * PAD + 1, EDGE = 8 + 2 * PAD };
 enum { AROUND = EDGE * EDGE * EDGE, INSIDE = 512, MIDDLE = BRUME_MAX_REACH };
@@ -26,11 +28,13 @@ enum { AROUND = EDGE * EDGE * EDGE, INSIDE = 512, MIDDLE = BRUME_MAX_REACH };
 /* What is known of a brick and its surroundings, for one thread. */
 struct patch {
     float value[BRUME_MAX_TAPS][3][AROUND];
-    float there[BRUME_MAX_TAPS][AROUND]; /* 1, or 0: no cell           */
-    float mean[3][INSIDE], cells[INSIDE];
+    float there[BRUME_MAX_TAPS][AROUND];  /* 1, or 0: no cell           */
+    float mean[3][INSIDE], cells[INSIDE]; /* of the middle frame         */
     /* Of the pair at each distance, then of the frame before and after: the
      * squared difference from the middle frame's, a cell's part. */
     float differ[BRUME_MAX_REACH][3][INSIDE];
+    /* By how much the frame before and after is darker, by channels. */
+    float shift[BRUME_MAX_REACH][2][3][INSIDE];
     float work[AROUND], more[AROUND];
 };
 
@@ -89,21 +93,22 @@ static void box_sums(struct patch *p, const float *in, float *out)
         }
 }
 
-/* Means over all frames and the box: the noise depends on them. */
-static void find_means(const struct adapt *a, struct patch *p, float *sum)
+static void find_means(struct patch *p)
 {
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < AROUND; i++) {
-            float value = 0.0f, frames = 0.0f;
-            for (int k = MIDDLE - a->reach; k <= MIDDLE + a->reach; k++) {
-                value += p->value[k][c][i];
-                frames += p->there[k][i];
-            }
-            sum[i] = frames > 0.0f ? value / frames : 0.0f;
-        }
-        box_sums(p, sum, p->mean[c]);
-    }
+    for (int c = 0; c < 3; c++)
+        box_sums(p, p->value[MIDDLE][c], p->mean[c]);
     box_sums(p, p->there[MIDDLE], p->cells);
+}
+
+static void find_shift(struct patch *p, int m, int j, float *sum)
+{
+    int k = j ? MIDDLE + m : MIDDLE - m;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < AROUND; i++)
+            sum[i] = p->there[k][i] * p->there[MIDDLE][i] *
+                     (p->value[MIDDLE][c][i] - p->value[k][c][i]);
+        box_sums(p, sum, p->shift[m - 1][j][c]);
+    }
 }
 
 /* Squared differences of the middle frame from what stands for it: the mean of
@@ -137,16 +142,59 @@ struct estimate {
     int from, to; /* frames that it is the mean of               */
 };
 
-/* Variance of a frame's sum of channels where their means are those. */
-static double level(const struct patch *p, int i)
+/* A frame's variance over its noise, of all channels together, where these are
+ * their sums over the box. */
+static double level_of(const double sums[3], double cells)
 {
-    double cells = (double)p->cells[i], square = 0.0, sum = 0.0;
+    double square = 0.0, sum = 0.0;
     for (int c = 0; c < 3; c++) {
-        double mean = fmax((double)p->mean[c][i] / cells, 0.0);
+        double mean = fmax(sums[c] / cells, 0.0);
         square += mean * mean;
         sum += mean;
     }
     return sum > 0.0 ? 3.0 * square / sum : 0.0;
+}
+
+/* How far the mean over the box changed, squared, beyond what noise does: j 0
+ * the pair's mean, 1 the frame before, 2 the one after. */
+static double mean_change(const struct patch *p, int i, int m, int j,
+                          double variance)
+{
+    double cells = (double)p->cells[i], square = 0.0;
+    for (int c = 0; c < 3; c++) {
+        double before = (double)p->shift[m - 1][0][c][i];
+        double after = (double)p->shift[m - 1][1][c][i];
+        double d = j == 0 ? 0.5 * (before + after) : j == 1 ? before : after;
+        square += d * d / (cells * cells);
+    }
+    return fmax(square - MARGIN_OF_MEAN * variance / cells, 0.0);
+}
+
+/* The level by the mean of those frames that are as bright as the middle one;
+ * `level`, of all of them, is a first guess of it. */
+static double pool(const struct adapt *a, const struct patch *p, int i,
+                   double level, bool all)
+{
+    double sums[3], shift[3] = {0}, count = 1.0;
+    for (int m = 1; m <= a->reach; m++)
+        for (int j = 1; j <= 2; j++) {
+            int k = j == 1 ? MIDDLE - m : MIDDLE + m;
+            double variance = (a->noise[MIDDLE] + a->noise[k]) * level;
+            if (!a->view[k].field ||
+                (!all && mean_change(p, i, m, j, variance) > 0.0))
+                continue;
+            count += 1.0;
+            for (int c = 0; c < 3; c++)
+                shift[c] += (double)p->shift[m - 1][j - 1][c][i];
+        }
+    for (int c = 0; c < 3; c++)
+        sums[c] = (double)p->mean[c][i] - shift[c] / count;
+    return level_of(sums, (double)p->cells[i]);
+}
+
+static double find_level(const struct adapt *a, const struct patch *p, int i)
+{
+    return pool(a, p, i, pool(a, p, i, 0.0, true), false);
 }
 
 static struct estimate judge(const struct adapt *a, const struct patch *p,
@@ -156,9 +204,11 @@ static struct estimate judge(const struct adapt *a, const struct patch *p,
                          .to = j == 1 ? MIDDLE - m : MIDDLE + m};
     double own = a->noise[MIDDLE] * level;
     double x = a->noise[e.from] * level, y = a->noise[e.to] * level;
-    double differ = (double)p->differ[m - 1][j][i] / (double)p->cells[i];
     e.variance = e.from == e.to ? x : 0.25 * (x + y);
-    e.change = sqrt(fmax(differ - MARGIN * (own + e.variance), 0.0));
+    double differ = (double)p->differ[m - 1][j][i] / (double)p->cells[i];
+    double change = fmax(differ - MARGIN * (own + e.variance),
+                         mean_change(p, i, m, j, own + e.variance));
+    e.change = sqrt(fmax(change, 0.0));
     return e;
 }
 
@@ -198,7 +248,7 @@ static void find_weights(const struct adapt *a, const struct patch *p, int i,
                          double weight[BRUME_MAX_TAPS])
 {
     struct estimate e[BRUME_MAX_TAPS];
-    double variance = level(p, i), sum = 0.0, square = 0.0;
+    double variance = find_level(a, p, i), sum = 0.0, square = 0.0;
     int count = 1;
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         weight[k] = 0.0;
@@ -252,9 +302,12 @@ static void adapt_brick(void *context, size_t index, int thread)
     filter_corner(f, index, corner);
     for (int k = MIDDLE - a->reach; k <= MIDDLE + a->reach; k++)
         load_frame(a, p, k, corner);
-    find_means(a, p, work);
-    for (int m = 1; m <= a->reach; m++)
+    find_means(p);
+    for (int m = 1; m <= a->reach; m++) {
         find_differences(p, m, work);
+        find_shift(p, m, 0, work);
+        find_shift(p, m, 1, work);
+    }
     float *out = a->flat->radiance + (size_t)slot * 512 * (size_t)f->numbers;
     for (int i = 0; i < INSIDE; i++, out += f->numbers) {
         double weight[BRUME_MAX_TAPS];

@@ -276,6 +276,9 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
     double side = l.options->spacing > 0.0 ? l.options->spacing * flat->unit
                                            : first_side(flat);
     l.snap = brume_film_reach(options) > 0;
+    if (l.snap && l.options->adaptive && l.field.ball)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "temporal adaptive needs gather tally");
     if (l.snap)
         side = snap_side(flat, side);
     if (l.field.births && !l.field.ball)

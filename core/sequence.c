@@ -223,6 +223,17 @@ static bool list_fields(const struct brume_film *film, const struct task *task,
     return true;
 }
 
+static bool run_filter(struct shot *shot,
+                       const struct filter_field *const *fields, int reach,
+                       struct brume_error *err)
+{
+    const struct brume_options *o = &shot->options;
+    if (o->photons.adaptive)
+        return filter_adapt(shot->job.flat, fields, reach, o->threads, err);
+    filter_mean(shot->job.flat, fields, o->photons.weight, reach, o->threads);
+    return true;
+}
+
 static bool filter_shot(struct brume_film *film, const struct task *task,
                         struct shot *shot, struct brume_error *err)
 {
@@ -232,8 +243,8 @@ static bool filter_shot(struct brume_film *film, const struct task *task,
     double start = timer_seconds();
     if (!list_fields(film, task, reach, fields, err))
         return false;
-    filter_mean(shot->job.flat, fields, shot->options.photons.weight, reach,
-                shot->options.threads);
+    if (!run_filter(shot, fields, reach, err))
+        return false;
     stats->ring = shot->job.held = film->ring;
     stats->seconds_filter = timer_seconds() - start;
     return true;
@@ -388,6 +399,7 @@ bool brume_film_taps(struct brume_photon_options *options, int taps)
     memcpy(options->weight, weights[taps / 2],
            (size_t)taps * sizeof *options->weight);
     options->taps = taps;
+    options->adaptive = false;
     return true;
 }
 

@@ -39,13 +39,15 @@ struct brume_photon_options {
     bool everywhere;            /* also cells that the eye cannot see       */
     /* Of films (brume_film.h): the field is a mean over so many frames, an odd
      * number, with these weights, the middle one the frame's own; 0 or 1: of
-     * each frame alone. Their sum need not be 1. */
+     * each frame alone. Their sum need not be 1. Adaptive: with weights
+     * that are found for each cell, by noise and change; with tally only. */
     int taps;
+    bool adaptive;
     double weight[BRUME_MAX_TAPS];
 };
 #define BRUME_PHOTONS_INIT                                                    \
     {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
-     false, 0, {0}}
+     false, 0, false, {0}}
 
 /* Photons of a frame. Power in units of the mean photon's, means of the
  * channels: emitted + units = media + surfaces + walls + escaped + roulette

@@ -44,7 +44,7 @@ static void set_photons(struct parser *parser, struct frame *frame,
     struct volume_photons *to = frame->node;
 
     if (row->given == PHOTONS_TEMPORAL) {
-        to->weights = 0;
+        to->weights = to->adaptive = 0;
         if (!brume_film_taps(&published, to->temporal))
             parser_mistake(parser, at,
                            "weights of 1, 3 and 5 frames are known; others "
@@ -70,11 +70,20 @@ const struct statement build_statement_volume_photons = {
 
 /* ---- weights ------------------------------------------------------------ */
 
+enum { TEMPORAL_REACH = 1 };
+
+static const struct param temporal_params[] = {
+    PARAM_WORD("adaptive", PARAM_MARK, 1, 0, struct volume_photons, adaptive),
+    PARAM_ROW("reach", PARAM_INTEGER, BRUME_ADAPTIVE_REACH, 1, BRUME_MAX_REACH,
+              0, TEMPORAL_REACH, struct volume_photons, reach),
+    {0}};
+
 static void open_temporal(struct parser *parser, struct frame *frame)
 {
     struct volume_photons *to = &parser->builder->globals.volume_photons;
 
     to->weights = 0;
+    param_defaults(temporal_params, to);
     frame->node = to;
 }
 
@@ -99,7 +108,14 @@ static void close_temporal(struct parser *parser, struct frame *frame,
 {
     struct volume_photons *to = frame->node;
 
-    if (to->weights % 2 == 0)
+    if (to->adaptive && to->weights > 0)
+        parser_mistake(parser, at,
+                       "there are weights, and 'adaptive', which finds them");
+    else if (frame->given & TEMPORAL_REACH && !to->adaptive)
+        parser_mistake(parser, at, "'reach' is for 'adaptive'");
+    else if (to->adaptive)
+        return;
+    else if (to->weights % 2 == 0)
         parser_mistake(parser, at,
                        "weights are of an odd number of frames, the middle "
                        "one the frame's own; there are %d",
@@ -110,12 +126,11 @@ static void close_temporal(struct parser *parser, struct frame *frame,
 }
 
 static const enum build_kind in_photons[] = {BUILD_VOLUME_PHOTONS, BUILD_KINDS};
-static const struct param no_params[] = {{0}};
 
 const struct statement build_statement_temporal = {
     .word = "temporal",
     .within = in_photons,
-    .params = no_params,
+    .params = temporal_params,
     .open = open_temporal,
     .argument = take_weight,
     .close = close_temporal,
@@ -124,6 +139,11 @@ const struct statement build_statement_temporal = {
 static void set_taps(const struct volume_photons *said,
                      struct brume_photon_options *to)
 {
+    if (said->adaptive) {
+        to->taps = 2 * said->reach + 1;
+        to->adaptive = true;
+        return;
+    }
     if (said->weights == 0) {
         brume_film_taps(to, said->temporal);
         return;

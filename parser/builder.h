@@ -218,6 +218,8 @@ struct volume_photons {
     bool frustum;
     int temporal;               /* frames, 0: not said                     */
     int weights;                /* that were written out, 0: the published */
+    int adaptive, reach;        /* 1: weights are found; over so many frames
+                                   on each side                            */
     double weight[BRUME_MAX_TAPS];
 };
 

@@ -375,6 +375,7 @@ const struct keyword keyword_table[] = {
     {"range", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"ratio", TOK_WORD, KEYWORD_RESERVED},
     {"ray", TOK_WORD, KEYWORD_EXTENSION},
+    {"reach", TOK_WORD, KEYWORD_EXTENSION},
     {"read", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"reciprocal", TOK_WORD, KEYWORD_RESERVED},
     {"recursion_limit", TOK_WORD, KEYWORD_RESERVED},

@@ -466,9 +466,27 @@ static bool read_weights(const char *text, struct options *o)
     return false;
 }
 
+/* Behind the word: nothing, or a comma and the reach. */
+static bool read_adaptive(const char *text, struct options *o)
+{
+    double reach = BRUME_ADAPTIVE_REACH;
+    if (*text && (*text != ',' || !parse_number(text + 1, &reach)))
+        return false;
+    if (!(reach >= 1 && reach <= BRUME_MAX_REACH) || reach != (int)reach)
+        return false;
+    o->taps = 2 * (int)reach + 1;
+    o->adaptive = true;
+    return true;
+}
+
 bool set_temporal(struct setting *s)
 {
     double taps;
+    if (strncmp(s->value, "adaptive", 8) == 0)
+        return read_adaptive(s->value + 8, s->options) ||
+               setting_error(s, "'%s' is not adaptive,REACH of 1 to %d frames",
+                             s->value, BRUME_MAX_REACH);
+    s->options->adaptive = false;
     if (strchr(s->value, ','))
         return read_weights(s->value, s->options) ||
                setting_error(s,
@@ -477,7 +495,9 @@ bool set_temporal(struct setting *s)
                              s->value, BRUME_MAX_TAPS);
     return (parse_number(s->value, &taps) && taps == (int)taps &&
             take_taps(s->options, (int)taps)) ||
-           setting_error(s, "'%s' is neither 1, 3 or 5 frames nor weights",
+           setting_error(s,
+                         "'%s' is neither 1, 3 or 5 frames, nor weights, nor "
+                         "adaptive",
                          s->value);
 }
 

@@ -224,7 +224,7 @@ const struct option option_table[] = {
       .words = preset_words, .help = "paper: the published choices" },
     { .name = "temporal", .value = "n", .set = set_temporal,
       .at = OPTION_NOWHERE,
-      .help = "light over 1, 3, 5 frames, or W,W,W" },
+      .help = "1, 3, 5 frames, W,W,W or adaptive" },
     { .name = "transport", .value = "name", .set = set_transport,
       .at = AT(full_transport), .words = transport_words,
       .help = "pov, or full: all light, many bounces" },

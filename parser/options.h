@@ -84,6 +84,7 @@ struct options {
     int tree_stack;
     int preset;                     /* 1: paper                            */
     int taps;                       /* of --temporal; 0: not given         */
+    bool adaptive;
     double weight[BRUME_MAX_TAPS];
     bool full_transport;
     int spp;

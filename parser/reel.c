@@ -198,6 +198,25 @@ static bool read_scene(struct reel *reel, int number,
     return ok;
 }
 
+/* A film's fields are filtered unless that is turned off; stills have none
+ * besides their own. */
+static void choose_filter(const struct reel *reel,
+                          struct brume_photon_options *p)
+{
+    const struct options *o = reel->options;
+    if (o->taps > 0) {
+        p->taps = o->taps;
+        p->adaptive = o->adaptive;
+        memcpy(p->weight, o->weight, sizeof o->weight);
+    }
+    if (!reel->frames.animation) {
+        p->taps = 1;
+    } else if (p->taps == 0 && p->gather == BRUME_GATHER_TALLY) {
+        p->taps = 2 * BRUME_ADAPTIVE_REACH + 1;
+        p->adaptive = true;
+    }
+}
+
 struct brume_options reel_options(struct reel *reel, int number,
                                   const struct parse_result *scene)
 {
@@ -235,12 +254,7 @@ struct brume_options reel_options(struct reel *reel, int number,
         r.photons.single = BRUME_SINGLE_FIELD;
         r.photons.emission = BRUME_EMISSION_PHOTONS;
     }
-    if (o->taps > 0) {
-        r.photons.taps = o->taps;
-        memcpy(r.photons.weight, o->weight, sizeof o->weight);
-    }
-    if (!reel->frames.animation)
-        r.photons.taps = 1;
+    choose_filter(reel, &r.photons);
     r.progress = on_progress;
     r.warn = reel_warn;
     r.user = reel;

@@ -49,8 +49,8 @@ static void put_rendering(struct settings *s, const struct options *o)
 {
     put(s, "backend %d integrator %d %d preset %d", (int)o->backend,
         o->has_integrator, (int)o->integrator, o->preset);
-    put(s, "temporal %d", o->taps);
-    for (int i = 0; i < o->taps; i++)
+    put(s, "temporal %d adaptive %d", o->taps, o->adaptive);
+    for (int i = 0; !o->adaptive && i < o->taps; i++)
         put(s, "%.17g", o->weight[i]);
     put(s, "spp %d error %.17g seconds %.17g", o->spp, o->error, o->seconds);
     put(s, "seed %" PRIu64 " memory %" PRIu64 " photons %" PRIu64, o->seed,

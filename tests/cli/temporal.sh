@@ -20,7 +20,8 @@ END
 film='+W12 +H9 --spp 2 --backend cpu +KFF9'
 fog 'temporal 5' >five.pov
 fog 'temporal 3' >three.pov
-fog '' >none.pov
+fog 'temporal 1' >none.pov
+fog '' >best.pov
 
 all_same()
 {
@@ -30,12 +31,21 @@ all_same()
 }
 
 new_case 'the filter has an effect, and the switch is stronger than the scene'
-for name in five three none; do
+for name in five three none best; do
     brume $name.pov $film +O$name
     exits 0
 done
 cmp -s five5.png none5.png && complain '5 taps have no effect'
 cmp -s five5.png three5.png && complain '5 taps are as 3'
+cmp -s best5.png five5.png && complain 'adaptive is as 5 taps'
+cmp -s best5.png none5.png && complain 'a film is not filtered'
+brume none.pov $film --temporal adaptive +Oadaptive
+all_same best adaptive
+fog 'temporal { adaptive reach 4 }' >written.pov
+brume written.pov $film +Oadaptive
+all_same best adaptive
+brume none.pov $film --temporal adaptive,2 +Oshort
+cmp -s short5.png best5.png && complain 'the reach has no effect'
 # Pictures do not tell what their scenes are called.
 brume none.pov $film --temporal 5 +Oswitch
 all_same five switch
@@ -56,6 +66,11 @@ for parts in 2 3 8; do
     done
     all_same five part
 done
+for i in 1 2 3; do
+    brume best.pov $film +Opart --shard $i/3
+    exits 0
+done
+all_same best part
 brume five.pov $film +Osub +SF4 +EF4
 same sub4.png five4.png
 
@@ -100,9 +115,23 @@ fog 'temporal { 1, 0, 1 }' >bad.pov
 brume bad.pov --check
 exits 1
 says "the frame's own weight is 0"
+fog 'temporal { adaptive 1, 2, 1 }' >bad.pov
+brume bad.pov --check
+exits 1
+says "'adaptive', which finds them"
+fog 'temporal { 1, 2, 1 reach 4 }' >bad.pov
+brume bad.pov --check
+exits 1
+says "'reach' is for 'adaptive'"
 brume none.pov --temporal 7
 exits 2
-says 'neither 1, 3 or 5 frames nor weights'
+says 'neither 1, 3 or 5 frames, nor weights'
+brume none.pov --temporal adaptive,9
+exits 2
+says 'not adaptive,REACH of 1 to 8'
+brume best.pov $film --preset paper --temporal adaptive
+exits 2
+says 'temporal adaptive needs gather tally'
 brume none.pov --temporal 1,2
 exits 2
 says 'is no odd number of weights'

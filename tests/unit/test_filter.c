@@ -109,6 +109,55 @@ static void filter__variance_is_that_of_the_weights(void **state)
         fail_msg("5 taps: %.4f of the variance, not 0.26", five / one);
 }
 
+/* Weights that are found: nearly those of a plain mean where nothing changes,
+ * and the frame's own alone where all does. The lamp that is brighter in one
+ * half of the frames is a cut. */
+static void filter__adapts_to_change(void **state)
+{
+    (void)state;
+    enum { REACH = 4, TAPS = 2 * REACH + 1 };
+    double error[3] = {0}, one = 0.0;
+    struct filter_field field[TAPS], truth;
+    const struct filter_field *list[TAPS];
+    struct brume_options o = options(5, 77);
+    o.photons.count = 2000000;
+    flat_free(trace(fog_ball(0.0, 0.0, 0.0), &o, &truth));
+    for (int k = 0; k < TAPS; k++) {
+        o = options(5, 100 + (uint32_t)k);
+        struct flat *flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
+        list[k] = &field[k];
+        if (k < TAPS - 1) {
+            flat_free(flat);
+            continue;
+        }
+        for (size_t i = 0; i < truth.count; i++)
+            one += pow((double)(field[REACH].cells[i] - truth.cells[i]), 2.0);
+        for (int change = 0; change < 3; change++) {
+            assert_true(filter_adapt(flat, list, REACH, 2, truth_error()));
+            for (size_t i = 0; i < truth.count; i++)
+                error[change] += pow(
+                    (double)(flat->radiance[i] - truth.cells[i]), 2.0);
+            /* Then all after the middle, then all others, are 5 times as
+             * bright. */
+            for (int j = change == 0 ? REACH + 1 : 0;
+                 j < (change == 0 ? TAPS : REACH); j++) {
+                field[j].noise *= 5.0;
+                for (size_t i = 0; i < field[j].count; i++)
+                    field[j].cells[i] *= 5.0f;
+            }
+        }
+        flat_free(flat);
+    }
+    print_message("still %.4f, one side %.4f, none %.4f\n", error[0] / one,
+                  error[1] / one, error[2] / one);
+    assert_true(error[0] / one < 1.3 / TAPS);
+    assert_true(error[1] / one < 1.5 / (REACH + 1));
+    assert_true(error[2] / one < 1.15);
+    for (int k = 0; k < TAPS; k++)
+        filter_release(&field[k]);
+    filter_release(&truth);
+}
+
 /* What is the same in all frames comes out as it is, also where some are not
  * there. */
 static void filter__keeps_what_does_not_change(void **state)
@@ -371,6 +420,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filter__variance_is_that_of_the_weights),
+        cmocka_unit_test(filter__adapts_to_change),
         cmocka_unit_test(filter__keeps_what_does_not_change),
         cmocka_unit_test(filter__fields_lie_in_space),
         cmocka_unit_test(filter__lattices_of_a_film_agree),

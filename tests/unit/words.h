@@ -233,8 +233,8 @@ static const struct words_scene words_scenes[] = {
     WORDS_IN(GLOBAL_SETTINGS, "global_settings { % }"),
     WORDS_IN(TRANSPORT, "global_settings { transport { % } }"),
     WORDS_IN(VOLUME_PHOTONS, "global_settings { @volume_photons { % }@ }"),
-    WORDS_IN(TEMPORAL, "global_settings { volume_photons { @temporal { % 1, 2, "
-                       "1 }@ } }"),
+    WORDS_IN(TEMPORAL, "global_settings { volume_photons { @temporal { adaptive "
+                       "% }@ } }"),
     WORDS_LACK(PHOTONS, "POV-Ray's photons",
                "global_settings { @photons { % }@ }"),
     WORDS_LACK(RADIOSITY, "radiosity", "global_settings { @radiosity { % }@ }"),
@@ -579,6 +579,8 @@ static const struct words_use words_uses[] = {
     WORDS_USE(FIRE, "reference", "reference 1500", NULL),
 
     WORDS_USE(VOLUME_PHOTONS, "preset", "preset paper", NULL),
+    WORDS_THERE(TEMPORAL, "adaptive", "adaptive", "1, 2, 1",
+                "global_settings { volume_photons { temporal { % } } }"),
     WORDS_USE(CAMERA, "perspective", "orthographic perspective",
               "orthographic"),
     WORDS_USE(CAMERA, "cylinder", "cylinder 1", NULL),
