@@ -233,8 +233,8 @@ static const struct words_scene words_scenes[] = {
     WORDS_IN(GLOBAL_SETTINGS, "global_settings { % }"),
     WORDS_IN(TRANSPORT, "global_settings { transport { % } }"),
     WORDS_IN(VOLUME_PHOTONS, "global_settings { @volume_photons { % }@ }"),
-    WORDS_IN(TEMPORAL, "global_settings { volume_photons { @temporal { adaptive "
-                       "% }@ } }"),
+    WORDS_IN(TEMPORAL, "global_settings { volume_photons { "
+                       "@temporal { adaptive % }@ } }"),
     WORDS_LACK(PHOTONS, "POV-Ray's photons",
                "global_settings { @photons { % }@ }"),
     WORDS_LACK(RADIOSITY, "radiosity", "global_settings { @radiosity { % }@ }"),
