@@ -40,6 +40,9 @@ struct backend {
     bool (*sample)(void *state, uint32_t count, struct brume_stats *stats,
                    struct brume_error *err);
     void (*close)(void *state);
+    /* The field has been laid out anew: its sums are zero. NULL where it can't
+     * be while the backend is open. */
+    bool (*renew)(void *state, struct brume_error *err);
 };
 
 /* What the frame asks of every pixel. */
@@ -52,6 +55,7 @@ static inline pixel_job backend_pixels(const struct backend_frame *frame)
     job.seed = o->seed;
     job.frame = o->frame;
     job.path = frame->stages->path || frame->stages->single;
+    job.lines = frame->stages->passes;
     return job;
 }
 

@@ -48,19 +48,25 @@ size_t film_pixels(const struct film *film)
     return (size_t)(film->x1 - film->x0) * (size_t)(film->y1 - film->y0);
 }
 
+static double line_count(const struct film *f)
+{
+    return pixel_lines(f->samples, 0, f->lines) +
+           pixel_lines(f->samples, 1, f->lines);
+}
+
 /* Mean over the samples of one half. */
 static double half_mean(const struct film *f, const film_pixel *p, int half,
                         int channel)
 {
     uint32_t paths = (f->samples + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t lines = pixel_lines(f->samples, half);
+    uint32_t lines = pixel_lines(f->samples, half, f->lines);
     return (paths ? p->path[half][channel] / paths : 0.0) +
            (lines ? p->line[half][channel] / lines : 0.0);
 }
 
 static double mean(const struct film *f, const film_pixel *p, int channel)
 {
-    double lines = pixel_lines(f->samples, 0) + pixel_lines(f->samples, 1);
+    double lines = line_count(f);
     return (p->path[0][channel] + p->path[1][channel]) / f->samples +
            (p->line[0][channel] + p->line[1][channel]) / lines;
 }
@@ -91,7 +97,7 @@ static void resolve_pixel(const struct film *f, const film_pixel *p,
                           bool omit_background, size_t at,
                           struct brume_frame *frame)
 {
-    double lines = pixel_lines(f->samples, 0) + pixel_lines(f->samples, 1);
+    double lines = line_count(f);
     for (int c = 0; c < 3; c++) {
         double m = mean(f, p, c);
         if (omit_background)

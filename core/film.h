@@ -8,6 +8,7 @@ struct film {
     int width, height;          /* of the whole picture                    */
     int x0, y0, x1, y1;         /* the part, half open                     */
     uint32_t samples;           /* of every pixel so far                   */
+    bool lines;                 /* each has run its straight line          */
     film_pixel *pixel;          /* row by row of the part                  */
 };
 

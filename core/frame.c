@@ -31,7 +31,10 @@ static const struct backend *choose_backend(const struct brume_options *o,
                                             struct brume_error *err)
 {
     char why[256] = "";
-    if (o->backend == BRUME_BACKEND_CPU)
+    bool lacks = o->integrator == BRUME_INTEGRATOR_PROGRESSIVE &&
+                 !backend_cuda.renew;
+    if (o->backend == BRUME_BACKEND_CPU ||
+        (o->backend == BRUME_BACKEND_AUTO && lacks))
         return &backend_cpu;
     if (backend_cuda.available(why, sizeof why))
         return &backend_cuda;
@@ -131,23 +134,70 @@ static uint32_t next_pass(const struct frame_job *j, int met)
     return time_allows(j, want);
 }
 
-static bool sample_passes(struct frame_job *j, const struct backend *b,
-                          void *state, struct brume_error *err)
+static bool check_memory(const struct frame_job *j, const struct flat *flat,
+                         struct brume_error *err)
+{
+    uint64_t bytes = flat_bytes(flat) + radiance_sum_bytes(flat) +
+                     film_pixels(&j->film) * sizeof(film_pixel) + j->held;
+    j->out->stats.bytes = bytes;
+    if (j->options->memory == 0 || bytes <= j->options->memory)
+        return true;
+    return brume_fail(err, BRUME_ERR_MEMORY,
+                      "the frame needs %.1f MiB but only %.1f may be used",
+                      (double)bytes / 1048576.0,
+                      (double)j->options->memory / 1048576.0);
+}
+
+static bool run_photons(struct frame_job *j, struct brume_error *err);
+
+static bool stop_or(const struct frame_job *j, bool good,
+                    struct brume_error *err)
+{
+    if (good && j->stopped)
+        return brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
+    return good;
+}
+
+/* Samples of one pass. */
+static bool sample_some(struct frame_job *j, struct brume_error *err)
+{
+    bool good = j->backend->sample(j->state, j->pass, &j->out->stats, err);
+    j->film.samples += good ? j->pass : 0;
+    return stop_or(j, good, err);
+}
+
+/* As many samples, each of a field of its own, so that the halves of the film
+ * tell what the fields' noise is, too. */
+static bool sample_fields(struct frame_job *j, struct brume_error *err)
+{
+    uint32_t count = j->pass;
+    bool good = true;
+    for (uint32_t i = 0; good && i < count; i++) {
+        j->pass = 0;
+        good = radiance_renew(j->flat, j->options, j->film.samples, err) &&
+               check_memory(j, j->flat, err) &&
+               (!j->backend->renew || j->backend->renew(j->state, err)) &&
+               run_photons(j, err);
+        j->pass = 1;
+        good = good && sample_some(j, err);
+    }
+    return good;
+}
+
+static bool sample_passes(struct frame_job *j, struct brume_error *err)
 {
     struct brume_stats *stats = &j->out->stats;
     int met = 0;
     j->sampling = timer_seconds();
     while ((j->pass = next_pass(j, met)) > 0) {
-        if (!b->sample(state, j->pass, stats, err))
+        if (!(j->stages.passes ? sample_fields(j, err) : sample_some(j, err)))
             return false;
-        if (j->stopped)
-            return brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
-        j->film.samples += j->pass;
         stats->error = film_error(&j->film);
         met = stats->error <= j->error ? met + 1 : 0;
     }
     stats->spp = (int)j->film.samples;
-    stats->seconds_render = timer_seconds() - j->sampling;
+    stats->seconds_render = timer_seconds() - j->sampling -
+                            (j->stages.passes ? stats->photons.seconds : 0.0);
     return true;
 }
 
@@ -205,20 +255,6 @@ static void report_goal(const struct frame_job *j)
     }
 }
 
-static bool check_memory(const struct frame_job *j, const struct flat *flat,
-                         struct brume_error *err)
-{
-    uint64_t bytes = flat_bytes(flat) + radiance_sum_bytes(flat) +
-                     film_pixels(&j->film) * sizeof(film_pixel) + j->held;
-    j->out->stats.bytes = bytes;
-    if (j->options->memory == 0 || bytes <= j->options->memory)
-        return true;
-    return brume_fail(err, BRUME_ERR_MEMORY,
-                      "the frame needs %.1f MiB but only %.1f may be used",
-                      (double)bytes / 1048576.0,
-                      (double)j->options->memory / 1048576.0);
-}
-
 /* Emits, traces and gathers: fills the field of scattered light. */
 static bool run_photons(struct frame_job *j, struct brume_error *err)
 {
@@ -226,21 +262,26 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
     const struct backend *b = j->backend;
     const struct flat *flat = j->flat;
     struct photons photons;
-    if (!photons_plan(flat, j->options, &photons, err))
+    if (j->stages.passes && !b->renew)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "backend %s has no integrator progressive yet",
+                          b->name);
+    if (!photons_plan(flat, j->options, j->film.samples, &photons, err))
         return false;
-    double start = j->sampling = timer_seconds();
-    j->photons = photons.job.count;
+    double start = timer_seconds();
+    if (!j->stages.passes) {
+        j->sampling = start;
+        j->photons = photons.job.count;
+    }
     bool good = photons.job.sources == 0 ||
                 b->trace(j->state, &photons.job, &j->out->stats, err);
-    if (good && j->stopped)
-        good = brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
     j->power = photons.job.power / (double)photons.job.count;
-    good = good && b->gather(j->state, j->power, err);
+    good = stop_or(j, good, err) && b->gather(j->state, j->power, err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
     stats->side = (double)flat->view.field.side / flat->unit;
     stats->bytes = radiance_sum_bytes(flat) +
                    flat->radiance_count * sizeof(float);
-    stats->seconds = timer_seconds() - start;
+    stats->seconds += timer_seconds() - start;
     j->photons = 0;
     photons_release(&photons);
     return good;
@@ -272,6 +313,7 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
         !check_memory(j, j->flat, err))
         return false;
     j->stages = plan_stages(j->flat, j->options);
+    j->film.lines = j->stages.passes;
     struct backend_frame frame = {j->flat,  j->options, &j->stages,
                                   &j->film, tick,       j};
     j->state = open_backend(j, &j->backend, &frame, err);
@@ -318,13 +360,13 @@ static bool run_stages(struct frame_job *j, bool traced,
                        struct brume_error *err)
 {
     const struct backend *b = j->backend;
-    if (!j->stages.photons)
-        return sample_passes(j, b, j->state, err);
+    if (!j->stages.photons || j->stages.passes)
+        return sample_passes(j, err);
     bool good = traced
                     ? (!b->put || b->put(j->state, j->flat->radiance, err)) &&
                           b->gather(j->state, 0.0, err)
                     : run_photons(j, err);
-    return good && sample_passes(j, b, j->state, err);
+    return good && sample_passes(j, err);
 }
 
 bool frame_render(struct frame_job *j, bool traced, struct brume_error *err)

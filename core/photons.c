@@ -90,8 +90,17 @@ static void share_out(const flat_scene *s, struct photons *p)
     }
 }
 
+static uint64_t count_of(const struct brume_options *options)
+{
+    if (options->photons.count > 0)
+        return options->photons.count;
+    return options->integrator == BRUME_INTEGRATOR_PROGRESSIVE
+               ? BRUME_DEFAULT_PASS_PHOTONS
+               : BRUME_DEFAULT_PHOTONS;
+}
+
 bool photons_plan(const struct flat *flat, const struct brume_options *options,
-                  struct photons *out, struct brume_error *err)
+                  uint32_t pass, struct photons *out, struct brume_error *err)
 {
     const flat_scene *s = &flat->view;
     memset(out, 0, sizeof *out);
@@ -99,8 +108,8 @@ bool photons_plan(const struct flat *flat, const struct brume_options *options,
     if (!out->sources)
         return false;
     out->job.source = out->sources;
-    out->job.count = options->photons.count > 0 ? options->photons.count
-                                                : BRUME_DEFAULT_PHOTONS;
+    out->job.count = count_of(options);
+    out->job.first = pass * out->job.count;
     out->job.seed = options->seed;
     out->job.frame = options->frame;
     rng random = rng_make(options->seed, options->frame, PHOTON_PASS - 2u, 0);

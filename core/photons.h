@@ -10,9 +10,10 @@ struct photons {
     photon_source *sources;
 };
 
-/* Lists the sources of the scene with their shares: none where nothing emits
+/* Lists the sources of the scene with their shares, for field `pass` of many,
+ * or 0: none where nothing emits
  * toward it. */
 bool photons_plan(const struct flat *flat, const struct brume_options *options,
-                  struct photons *out, struct brume_error *err);
+                  uint32_t pass, struct photons *out, struct brume_error *err);
 void photons_release(struct photons *photons);
 #endif

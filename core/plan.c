@@ -116,8 +116,9 @@ struct stages plan_stages(const struct flat *f,
     s.glow = f->glows_count > 0;
     s.march = true;
     bool lit = f->view.scatters && is_lit(f);
-    s.photons = options->integrator == BRUME_INTEGRATOR_PHOTON &&
+    s.photons = options->integrator != BRUME_INTEGRATOR_PATH &&
                 needs_field(f) && (lit || has_surfaces(f));
+    s.passes = s.photons && options->integrator == BRUME_INTEGRATOR_PROGRESSIVE;
     /* What the field holds no path looks for. */
     s.cells = s.photons && f->lights_count > 0 &&
               options->photons.single == BRUME_SINGLE_FIELD;
@@ -153,7 +154,7 @@ static const char *photon_reason(const struct flat *f,
                                  const struct brume_options *options,
                                  const struct stages *s)
 {
-    if (options->integrator != BRUME_INTEGRATOR_PHOTON)
+    if (options->integrator == BRUME_INTEGRATOR_PATH)
         return "the integrator is path";
     if (s->photons)
         return "media scatter, many times";

@@ -9,6 +9,7 @@ struct stages {
     bool glow;              /* emitting voxels as lights                   */
     bool march;             /* the straight line from the eye              */
     bool photons;           /* emit, trace and gather: a field of light    */
+    bool passes;            /* ... for each sample of the picture          */
     bool cells;             /* ... that holds what comes from lights too   */
     bool single;            /* what the lights give media, once scattered  */
     bool path;              /* anything beyond that                        */

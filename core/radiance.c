@@ -2,10 +2,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include "core/physics/radiance.h"
+#include "core/physics/rng.h"
 
 /* Cells along the side of a cube as large as the media's box, at most: finer
  * ones would hold more noise than detail. */
 #define FIELD_CELLS 64.0
+
+/* The streams of lattices' places. */
+#define SHIFT_PASS 0xfffffffbu
 
 /* Bytes of a number while photons are added up, and after. */
 #define NUMBER_BYTES (sizeof(int64_t) + sizeof(float))
@@ -13,8 +17,10 @@
 struct layout {
     struct flat *flat;
     const struct brume_photon_options *options;
-    bool seen; /* only what the eye can see is asked for  */
-    bool snap; /* other frames shall have the same cells  */
+    bool seen;       /* only what the eye can see is asked for  */
+    bool passes;     /* one of many fields                      */
+    double shift[3]; /* of the lattice, in cells                */
+    bool snap;       /* other frames shall have the same cells  */
     radiance_lattice field;
 };
 
@@ -76,7 +82,9 @@ static bool gives_by_density(const struct flat *f, bool births)
 }
 
 /* The eye's rays ask for what goes there, those that surfaces send on for
- * what goes anywhere. */
+ * what goes anywhere. Of many fields none may be wrong but by its cells: where
+ * a fluence and a flux are not enough, only the eye's straight lines read
+ * them, and media that scatter differently are gathered by balls. */
 static void choose_numbers(struct layout *l)
 {
     const struct flat *f = l->flat;
@@ -89,6 +97,9 @@ static void choose_numbers(struct layout *l)
     out->phase = m->phase;
     out->g = m->g;
     out->numbers = 0;
+    out->ball = out->ball || (l->passes && !alike);
+    out->straight = l->passes && (out->ball || !even);
+    bounces = bounces && !out->straight;
     out->thick = out->ball && gives_by_density(f, out->births != 0);
     l->seen = !bounces && !l->options->everywhere && !f->view.view.orthographic;
     if (out->ball || (alike && !even)) {
@@ -233,12 +244,13 @@ static void set_cells(struct layout *l, double side)
             snap_axis(l, i, side);
             continue;
         }
-        double extent = (double)(r->hi[i] - r->lo[i]);
+        double extent = (double)(r->hi[i] - r->lo[i]) +
+                        (l->passes ? side : 0.0);
         double bricks = fmax(ceil(extent / side / 8.0 * 0.9999), 1.0);
+        double middle = 0.5 * ((double)r->lo[i] + (double)r->hi[i]);
         l->field.bricks[i] = (int32_t)bricks;
-        l->field.origin[i] = (float)(0.5 *
-                                         ((double)r->lo[i] + (double)r->hi[i]) -
-                                     4.0 * bricks * side);
+        l->field.origin[i] = (float)(middle -
+                                     (4.0 * bricks - l->shift[i]) * side);
     }
 }
 
@@ -259,50 +271,123 @@ static uint64_t field_bytes(const struct layout *l, uint64_t bricks)
     return bricks * 512 * (uint64_t)l->field.numbers * NUMBER_BYTES;
 }
 
-bool radiance_layout(struct flat *flat, const struct brume_options *options,
-                     struct brume_error *err)
+static bool check_options(const struct layout *l, struct brume_error *err)
+{
+    const struct brume_photon_options *o = l->options;
+    if (l->passes && o->single == BRUME_SINGLE_FIELD)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "integrator progressive samples light scattered once "
+                          "along the eye's rays, not in the field");
+    if (l->passes && o->emission == BRUME_EMISSION_PHOTONS)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "integrator progressive counts emission along the "
+                          "eye's rays, not by photons");
+    if (l->snap && o->adaptive && l->field.ball)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "temporal adaptive needs gather tally");
+    if (l->field.births && !l->field.ball)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "emission by photons needs gather ball");
+    return true;
+}
+
+/* Bytes that the field may have. */
+static uint64_t room_for(const struct layout *l, uint64_t memory)
+{
+    uint64_t used = flat_bytes(l->flat);
+    if (memory == 0)
+        return UINT64_MAX;
+    return memory > used ? (memory - used) / 2 : 0;
+}
+
+/* Cells of that side, or as coarse as the room asks for. */
+static bool lay_out(struct layout *l, double side, uint64_t room,
+                    struct brume_error *err)
+{
+    struct flat *flat = l->flat;
+    double ball = l->options->radius > 0.0
+                      ? l->options->radius * flat->unit / side
+                      : 2.0;
+    uint64_t bricks;
+    for (;; side *= 1.1) {
+        set_cells(l, side);
+        bricks = number_bricks(l, NULL);
+        if (field_bytes(l, bricks) <= room || bricks <= 8)
+            break;
+    }
+    size_t all = (size_t)l->field.bricks[0] * (size_t)l->field.bricks[1] *
+                 (size_t)l->field.bricks[2];
+    int32_t *slots = FLAT_EXTEND(flat, radiance_slots, all, err);
+    if (!slots || !FLAT_EXTEND(flat, radiance,
+                               bricks * 512 * (size_t)l->field.numbers, err))
+        return false;
+    number_bricks(l, slots);
+    l->field.radius = (float)(l->options->radius > 0.0 && !l->passes
+                                  ? l->options->radius * flat->unit
+                                  : ball * (double)l->field.side);
+    flat->view.field = l->field;
+    flat_view(flat);
+    return true;
+}
+
+static struct layout begin(struct flat *flat,
+                           const struct brume_options *options)
 {
     struct layout l = {.flat = flat, .options = &options->photons};
-    uint64_t room = UINT64_MAX, bricks;
+    l.passes = options->integrator == BRUME_INTEGRATOR_PROGRESSIVE;
     l.field.ball = l.options->gather == BRUME_GATHER_BALL;
     l.field.single = l.options->single == BRUME_SINGLE_FIELD &&
                      flat->lights_count > 0;
     l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
     choose_numbers(&l);
-    if (options->memory > 0) {
-        uint64_t used = flat_bytes(flat);
-        room = options->memory > used ? (options->memory - used) / 2 : 0;
-    }
-    double side = l.options->spacing > 0.0 ? l.options->spacing * flat->unit
-                                           : first_side(flat);
-    l.snap = brume_film_reach(options) > 0;
-    if (l.snap && l.options->adaptive && l.field.ball)
-        return brume_fail(err, BRUME_ERR_USAGE,
-                          "temporal adaptive needs gather tally");
+    l.snap = !l.passes && brume_film_reach(options) > 0;
+    return l;
+}
+
+static double side_of(const struct layout *l)
+{
+    double spacing = l->options->spacing;
+    return spacing > 0.0 ? spacing * l->flat->unit : first_side(l->flat);
+}
+
+bool radiance_layout(struct flat *flat, const struct brume_options *options,
+                     struct brume_error *err)
+{
+    struct layout l = begin(flat, options);
+    double side = side_of(&l);
     if (l.snap)
         side = snap_side(flat, side);
-    if (l.field.births && !l.field.ball)
-        return brume_fail(err, BRUME_ERR_USAGE,
-                          "emission by photons needs gather ball");
-    for (;; side *= 1.1) {
-        set_cells(&l, side);
-        bricks = number_bricks(&l, NULL);
-        if (field_bytes(&l, bricks) <= room || bricks <= 8)
-            break;
-    }
-    size_t all = (size_t)l.field.bricks[0] * (size_t)l.field.bricks[1] *
-                 (size_t)l.field.bricks[2];
-    int32_t *slots = FLAT_EXTEND(flat, radiance_slots, all, err);
-    if (!slots || !FLAT_EXTEND(flat, radiance,
-                               bricks * 512 * (size_t)l.field.numbers, err))
-        return false;
-    number_bricks(&l, slots);
-    l.field.radius = (float)(l.options->radius > 0.0
-                                 ? l.options->radius * flat->unit
-                                 : 2.0 * (double)l.field.side);
-    flat->view.field = l.field;
-    flat_view(flat);
-    return true;
+    return check_options(&l, err) &&
+           lay_out(&l, side, room_for(&l, options->memory), err);
+}
+
+/* Without a field, as before the first. */
+static void drop_field(struct flat *flat)
+{
+    free(flat->radiance);
+    free(flat->radiance_slots);
+    flat->radiance = NULL;
+    flat->radiance_slots = NULL;
+    flat->radiance_count = flat->radiance_capacity = 0;
+    flat->radiance_slots_count = flat->radiance_slots_capacity = 0;
+}
+
+/* What cells blur is as side^2, the variance of a field along a ray as
+ * 1 / side: with sides as the -1/4th power of the pass the bias of the mean
+ * falls as all other noise does, as 1 / sqrt(passes), and the noise of the
+ * fields a little slower, as their -3/8th power. (With the -1/5th both would
+ * fall as the -2/5th; most noise is not the fields'.) Lattices that lie
+ * anywhere blur their own planes. */
+bool radiance_renew(struct flat *flat, const struct brume_options *options,
+                    uint32_t pass, struct brume_error *err)
+{
+    struct layout l = begin(flat, options);
+    rng random = rng_make(options->seed, options->frame, SHIFT_PASS, pass);
+    for (int i = 0; i < 3; i++)
+        l.shift[i] = (double)rng_float(&random) - 0.5;
+    drop_field(flat);
+    return lay_out(&l, side_of(&l) * pow(pass + 1.0, -0.25),
+                   room_for(&l, options->memory), err);
 }
 
 uint64_t radiance_sum_bytes(const struct flat *flat)

@@ -9,6 +9,11 @@
 bool radiance_layout(struct flat *flat, const struct brume_options *options,
                      struct brume_error *err);
 
+/* The same for the field of pass `pass` of many, in place of the one before:
+ * its cells are smaller, and lie elsewhere. */
+bool radiance_renew(struct flat *flat, const struct brume_options *options,
+                    uint32_t pass, struct brume_error *err);
+
 /* Bytes of the sums that photons are added up in. */
 uint64_t radiance_sum_bytes(const struct flat *flat);
 

@@ -4,12 +4,17 @@
 
 /* Path: unbiased. Photon: photons are traced into a field of the light that is
  * scattered more than once, which the eye's rays then read; what is wrong with
- * it is only what the cells of the field blur. */
-enum brume_integrator { BRUME_INTEGRATOR_PATH, BRUME_INTEGRATOR_PHOTON };
+ * it is only what the cells of the field blur. Progressive: a field of its own
+ * for each sample of a pixel, with cells that shrink: what they blur goes away
+ * with the samples. */
+enum brume_integrator { BRUME_INTEGRATOR_PATH, BRUME_INTEGRATOR_PHOTON,
+                        BRUME_INTEGRATOR_PROGRESSIVE };
 enum brume_backend { BRUME_BACKEND_AUTO, BRUME_BACKEND_CPU,
                      BRUME_BACKEND_CUDA };
 
 #define BRUME_DEFAULT_PHOTONS 1000000
+/* For each field of many. */
+#define BRUME_DEFAULT_PASS_PHOTONS 100000
 
 /* How the integrator photon keeps the light that is scattered; 0 is the
  * default of each. */
@@ -30,7 +35,7 @@ enum brume_emission {           /* of media                                 */
 enum { BRUME_MAX_TAPS = 17, BRUME_MAX_REACH = BRUME_MAX_TAPS / 2 };
 
 struct brume_photon_options {
-    uint64_t count;             /* emitted; 0: BRUME_DEFAULT_PHOTONS        */
+    uint64_t count;             /* emitted for a field; 0: the default      */
     enum brume_gather gather;
     enum brume_single single;
     enum brume_emission emission;

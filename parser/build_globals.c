@@ -84,9 +84,6 @@ static void set_globals(struct parser *parser, struct frame *frame,
     const struct globals *globals = frame->node;
 
     if (row->given == GLOBAL_INTEGRATOR) {
-        if (globals->integrator > BRUME_INTEGRATOR_PHOTON)
-            parser_error(parser, at, "integrator '%s' is not supported yet",
-                         integrator_words[globals->integrator]);
         parser->out->has_integrator = true;
         parser->out->integrator = (enum brume_integrator)globals->integrator;
     }

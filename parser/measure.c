@@ -13,6 +13,7 @@ const struct measure_series measure_series[] = {
     {"photon", BRUME_INTEGRATOR_PHOTON, false, false, 1},
     {"photon fine", BRUME_INTEGRATOR_PHOTON, false, false, 0.5},
     {"photon paper", BRUME_INTEGRATOR_PHOTON, false, true, 1},
+    {"progressive", BRUME_INTEGRATOR_PROGRESSIVE, true, false, 1},
 };
 const int measure_series_count = sizeof measure_series / sizeof *measure_series;
 
@@ -228,7 +229,8 @@ static bool render_row(struct sweep *s, const struct measure_setting *set,
     };
     double square = row->difference * row->difference - m->noise * m->noise;
     row->error = square > 0.0 ? sqrt(square) : 0.0;
-    *needed = set->photons == 0 || stats->photons.traced > 0;
+    *needed = options.integrator == BRUME_INTEGRATOR_PATH ||
+              stats->photons.traced > 0;
     if (s->side == 0.0)
         s->side = stats->photons.side;
     brume_frame_free(&frame);
@@ -279,6 +281,8 @@ static void plan_next(struct sweep *s, const struct measure_row *row)
     *next = row->set;
     next->spp *= spp;
     next->photons *= photons;
+    if (row->set.photons == 0)
+        photons = 2;
     s->wait[row->set.series] = row->prepare_seconds +
                                photons * row->photon_seconds +
                                spp * (row->seconds - row->prepare_seconds -
@@ -291,7 +295,7 @@ static void begin_series(struct sweep *s, int i)
 {
     const struct measure *m = s->m;
     const struct measure_series *series = &measure_series[i];
-    bool photons = series->integrator != BRUME_INTEGRATOR_PATH;
+    bool photons = series->integrator == BRUME_INTEGRATOR_PHOTON;
     if ((m->only >= 0 && (int)series->integrator != m->only) ||
         (series->cells != 1.0 && s->side == 0.0) ||
         (series->paper && m->options.photons.gather == BRUME_GATHER_BALL))

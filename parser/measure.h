@@ -10,7 +10,7 @@
 struct measure_series {
     const char *name;
     enum brume_integrator integrator;
-    bool unbiased;              /* the error is noise alone                */
+    bool unbiased;              /* the error goes away with the samples    */
     bool paper;                 /* the published choices                   */
     double cells;               /* their side over the scene's own         */
 };
@@ -26,7 +26,8 @@ extern const double measure_goals[MEASURE_GOALS];
 /* With what a picture is rendered. */
 struct measure_setting {
     int series, spp;
-    uint64_t photons;           /* 0: by paths                             */
+    uint64_t photons;           /* 0: none, or as many as ever for each of
+                                   many fields                             */
     double spacing;             /* side of a cell; 0: the scene's own      */
 };
 

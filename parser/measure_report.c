@@ -17,6 +17,8 @@ static const char *integrator_name(enum brume_integrator integrator)
         return "path";
     case BRUME_INTEGRATOR_PHOTON:
         return "photon";
+    case BRUME_INTEGRATOR_PROGRESSIVE:
+        return "progressive";
     }
     return "";
 }

@@ -19,7 +19,7 @@ static const struct option_word backend_words[] = {
 static const struct option_word integrator_words[] = {
     {"path", BRUME_INTEGRATOR_PATH, false},
     {"photon", BRUME_INTEGRATOR_PHOTON, false},
-    {"progressive", 0, true},
+    {"progressive", BRUME_INTEGRATOR_PROGRESSIVE, false},
     {NULL, 0, false},
 };
 
@@ -214,9 +214,9 @@ const struct option option_table[] = {
       .words = backend_words, .help = "auto, cpu or cuda" },
     { .name = "integrator", .value = "name", .set = set_integrator,
       .at = AT(integrator), .words = integrator_words,
-      .help = "path or photon" },
+      .help = "path, photon or progressive" },
     { .name = "photons", .value = "n", .set = set_unsigned, .at = AT(photons),
-      .help = "emitted for a frame by --integrator photon" },
+      .help = "emitted for each field of light" },
     { .name = "field-spacing", .value = "h", .set = set_number,
       .at = AT(field_spacing), .low = 1e-30, .high = 1e30,
       .help = "side of its cells, in units of the scene" },

@@ -44,6 +44,14 @@ static void *cpu_open(const struct backend_frame *frame,
     return NULL;
 }
 
+static bool cpu_renew(void *state, struct brume_error *err)
+{
+    struct cpu_state *s = state;
+    free(s->sum);
+    s->sum = memory_new(s->frame.flat->radiance_count, sizeof *s->sum, err);
+    return s->sum != NULL;
+}
+
 static void sample_row(void *context, size_t index, int thread)
 {
     struct cpu_state *s = context;
@@ -100,4 +108,5 @@ const struct backend backend_cpu = {
     .gather = cpu_gather,
     .sample = cpu_sample,
     .close = cpu_close,
+    .renew = cpu_renew,
 };

@@ -174,5 +174,5 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 
 extern "C" const struct backend backend_cuda = {
     "cuda",    cuda_available, cuda_open,   cuda_trace, cuda_gather,
-    cuda_take, cuda_put,       cuda_sample, cuda_close,
+    cuda_take, cuda_put,       cuda_sample, cuda_close, nullptr,
 };

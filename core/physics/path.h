@@ -401,7 +401,7 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
     v.event = event;
     if (!s->field.single)
         path_light(s, p, &v);
-    if (s->field.numbers > 0) {
+    if (s->field.numbers > 0 && (p->straight || !s->field.straight)) {
         path_field(s, p, &v);
         return false;
     }

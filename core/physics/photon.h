@@ -327,6 +327,7 @@ HD bool photon_begin(const flat_scene *s, const photon_job *job,
 {
     float u[PHOTON_DIMENSIONS];
     const photon_source *source = &job->source[photon_source_of(job, photon)];
+    photon += job->first;
     photon_place(job, photon, u);
     photon_birth(s, source, u,
                  rng_make(job->seed, job->frame, PHOTON_PASS, photon), p,

@@ -46,6 +46,7 @@ typedef struct {
     const photon_source *source;
     int32_t sources;
     uint64_t count;         /* of all photons of the field                 */
+    uint64_t first;         /* photons of fields before                    */
     uint64_t seed;
     uint32_t frame;
     uint64_t shift[PHOTON_DIMENSIONS];      /* of the sequence, from seed  */

@@ -21,30 +21,33 @@ typedef struct {
     uint64_t seed;
     uint32_t frame;
     int32_t path;           /* 0: nothing but the straight line gives light */
+    int32_t lines;          /* 1: the straight line has noise too          */
 } pixel_job;
 
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
- * of the first samples, then by every eighth. */
+ * of the first samples, then by every eighth. Where each sample has a field of
+ * its own, by `all`. */
 enum { PIXEL_LINES_FIRST = 4, PIXEL_LINES_EVERY = 8 };
 
-HD bool pixel_has_line(uint32_t i)
+HD bool pixel_has_line(uint32_t i, bool all)
 {
-    return i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
+    return all || i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
 }
 
 /* The half to which a sample's line counts: they alternate. */
-HD int pixel_line_half(uint32_t i)
+HD int pixel_line_half(uint32_t i, bool all)
 {
-    return (int)(i < PIXEL_LINES_FIRST ? i & 1u : i / PIXEL_LINES_EVERY & 1u);
+    return (int)(all || i < PIXEL_LINES_FIRST ? i & 1u
+                                              : i / PIXEL_LINES_EVERY & 1u);
 }
 
 /* Lines of one half among the first n samples. */
-HD uint32_t pixel_lines(uint32_t n, int half)
+HD uint32_t pixel_lines(uint32_t n, int half, bool all)
 {
-    if (n <= PIXEL_LINES_FIRST)
+    if (all || n <= PIXEL_LINES_FIRST)
         return (n + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t all = (n - 1u) / PIXEL_LINES_EVERY;    /* 8, 16, ... */
-    return PIXEL_LINES_FIRST / 2u + (all + (half == 1 ? 1u : 0u)) / 2u;
+    uint32_t more = (n - 1u) / PIXEL_LINES_EVERY;   /* 8, 16, ... */
+    return PIXEL_LINES_FIRST / 2u + (more + (half == 1 ? 1u : 0u)) / 2u;
 }
 
 HD bool pixel_finite(rgb c)
@@ -59,7 +62,7 @@ HD void pixel_sum(double out[3], rgb c)
     out[2] += (double)c.b;
 }
 
-HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
+HD void pixel_line(const flat_scene *s, const pixel_job *job, vec3 o, vec3 d,
                    const container_set *set, uint32_t sample, float along,
                    film_pixel *out, track_counters *count)
 {
@@ -69,7 +72,7 @@ HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
         count->rejected++;
         return;
     }
-    pixel_sum(out->line[pixel_line_half(sample)], m.radiance);
+    pixel_sum(out->line[pixel_line_half(sample, job->lines != 0)], m.radiance);
     pixel_sum(out->background, m.background);
     pixel_sum(out->opacity, m.opacity);
     if (sample == 0u)
@@ -133,10 +136,10 @@ HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
         vec3 o, d;
         float along;
         container_set set;
-        if (!pixel_has_line(i))
+        if (!pixel_has_line(i, job->lines != 0))
             continue;
         pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
-        pixel_line(s, o, d, &set, i, along, out, count);
+        pixel_line(s, job, o, d, &set, i, along, out, count);
     }
 }
 

@@ -77,9 +77,6 @@ for word in --preview +FJ +FT +UF Create_Ini=on; do
     exits 2
     says 'not supported yet'
 done
-brume s.pov --integrator progressive
-exits 2
-says 'not supported yet'
 
 new_case 'what has no effect is accepted'
 quick s.pov +A0.1 +AM2 +R3 +J -D +P +X +Q9 +MB25 Display_Gamma=sRGB \

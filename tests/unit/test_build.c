@@ -582,8 +582,6 @@ static void globals(void **state)
     NUMBERS(&result.photons.spacing, 0.1);
     assert_true(result.photons.everywhere);
     assert_true(s->globals.media_multiple && s->globals.surfaces_indirect);
-    expect_error("global_settings { integrator progressive }", BRUME_ERR_SCENE,
-                 1, 30, "'progressive' is not supported yet");
     expect_error("global_settings { max_trace_level 257 }", BRUME_ERR_SCENE, 1,
                  35, "at most 256");
     expect_warning("global_settings { assumed_gamma 2.2 }", 1, 19, "2.2");

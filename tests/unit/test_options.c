@@ -244,8 +244,6 @@ static void test_options__not_yet(void **state)
 {
     (void)state;
     ASSERT_ERROR("--preview: not supported yet", "--preview");
-    ASSERT_ERROR("--integrator: 'progressive' is not supported yet",
-                 "--integrator", "progressive");
     ASSERT_ERROR("+F: file type 'J' is not supported yet; N is PNG, E "
                  "OpenEXR, P PPM",
                  "+FJ");

@@ -75,7 +75,7 @@ static void trace_as(brume_scene *scene, uint64_t photons, uint64_t seed,
     assert_non_null(t->flat);
     assert_true(plan_layout(t->flat, &o, truth_error()));
     assert_true(t->flat->radiance_count > 0);
-    assert_true(photons_plan(t->flat, &o, &t->photons, truth_error()));
+    assert_true(photons_plan(t->flat, &o, 0, &t->photons, truth_error()));
     t->count.tally.sum = calloc(t->flat->radiance_count, sizeof(int64_t));
     assert_non_null(t->count.tally.sum);
     photon_run(&t->flat->view, &t->photons.job, 0, photons, &t->count);
