@@ -115,6 +115,12 @@ static void on_measured(void *user, const struct measure *measure)
     measure_table(measure, stdout);
 }
 
+static void on_flickered(void *user, const struct measure_temporal *measure)
+{
+    (void)user;
+    measure_temporal_table(measure, stdout);
+}
+
 /* ---- the run ----------------------------------------------------------- */
 
 static enum brume_code act(struct run *run)
@@ -126,6 +132,7 @@ static enum brume_code act(struct run *run)
         .frame = on_frame,
         .planned = on_planned,
         .measured = on_measured,
+        .flickered = on_flickered,
         .progress = on_progress,
         .finished = on_finished,
         .skipped = on_skipped,
@@ -192,13 +199,14 @@ static bool asks_for_help(int count, char **word)
     return false;
 }
 
-static void check_measure(const struct options *o, bool measure,
-                          struct diag *diag)
+static void check_measure(const struct options *o, struct diag *diag)
 {
-    if (!measure && (o->reference || o->budget > 0))
+    bool temporal = o->action == OPTIONS_MEASURE_TEMPORAL;
+    bool measure = o->action == OPTIONS_MEASURE || temporal;
+    if (o->action != OPTIONS_MEASURE && (o->reference || o->budget > 0))
         diag_error(diag, BRUME_ERR_USAGE,
                    "--reference and --budget are for 'brume measure'");
-    if (measure && (o->spp || o->error > 0 || o->seconds > 0))
+    if (measure && ((o->spp && !temporal) || o->error > 0 || o->seconds > 0))
         diag_error(diag, BRUME_ERR_USAGE,
                    "'brume measure' tries --spp, --error and --time itself");
     if (measure && o->output && strcmp(o->output, "-") == 0)
@@ -212,13 +220,16 @@ static void read_options(struct options *options, int count, char **word,
     const char *ini = options_find_ini(options);
     if (ini)
         options_read_ini(options, ini, NULL, diag);
-    int first = count > 1 && strcmp(word[1], "measure") == 0 ? 2 : 1;
-    if (first == 2)
-        options->action = OPTIONS_MEASURE;
+    int first = 1;
+    if (count > 1 && strcmp(word[1], "measure") == 0) {
+        bool temporal = count > 2 && strcmp(word[2], "--temporal") == 0;
+        first = temporal ? 3 : 2;
+        options->action = temporal ? OPTIONS_MEASURE_TEMPORAL : OPTIONS_MEASURE;
+    }
     if (count > first)
         options_read_words(options, count - first,
                            (const char *const *)(word + first), diag);
-    check_measure(options, first == 2, diag);
+    check_measure(options, diag);
 }
 
 static enum brume_code start(struct run *run, int count, char **word)

@@ -20,6 +20,7 @@ enum options_action {
     OPTIONS_RENDER, OPTIONS_CHECK, OPTIONS_CHECK_JSON,
     OPTIONS_EXPLAIN, OPTIONS_EXPLAIN_JSON,
     OPTIONS_MEASURE,                /* by the word `measure` alone         */
+    OPTIONS_MEASURE_TEMPORAL,       /* ... with --temporal behind it       */
     OPTIONS_HELP, OPTIONS_VERSION
 };
 

@@ -307,6 +307,23 @@ static bool measure(struct reel *reel, const struct parse_result *scene,
     return true;
 }
 
+static enum brume_code measure_temporal(struct reel *reel)
+{
+    struct brume_error err = {0};
+    struct measure_temporal m = {.spp = reel->options->spp,
+                                 .photons = reel->options->photons};
+    bool named = !reel->options->to_file ||
+                 (m.csv_path = naming_beside(reel->options, ".flicker.csv",
+                                             &reel->arena));
+    if (!named)
+        brume_fail(&err, BRUME_ERR_MEMORY, "out of memory");
+    enum brume_code code = named ? measure_temporal_run(&m, reel)
+                                 : reel_fail(reel, &err);
+    if (!code)
+        reel->events->flickered(reel->events->user, &m);
+    return code;
+}
+
 static bool act_on(struct reel *reel, const struct parse_result *scene,
                    int number, struct brume_error *err)
 {
@@ -380,8 +397,14 @@ enum brume_code reel_run(struct reel *reel, struct options *options,
                                              : reel_fail(reel, &err);
     if (reel->frames.none)
         return BRUME_OK;
-    return options->action == OPTIONS_RENDER ? reel_film(reel)
-                                             : run_frames(reel);
+    switch (options->action) {
+    case OPTIONS_RENDER:
+        return reel_film(reel);
+    case OPTIONS_MEASURE_TEMPORAL:
+        return measure_temporal(reel);
+    default:
+        return run_frames(reel);
+    }
 }
 
 void reel_release(struct reel *reel)

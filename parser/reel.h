@@ -9,6 +9,7 @@
 #include "parser/frames.h"
 #include "parser/manifest.h"
 #include "parser/measure.h"
+#include "parser/measure_temporal.h"
 #include "parser/options.h"
 #include "parser/parse.h"
 
@@ -32,11 +33,20 @@ struct reel_events {
     void (*planned)(void *user, const struct brume_plan *plan);
     void (*progress)(void *user, const struct brume_progress *progress);
     void (*measured)(void *user, const struct measure *measure);
+    void (*flickered)(void *user, const struct measure_temporal *measure);
     void (*finished)(void *user, const struct reel_record *record);
     /* A picture that is left out, being finished already. */
     void (*skipped)(void *user, const char *picture);
     bool (*stopped)(void *user);    /* true: end with BRUME_STOPPED        */
     FILE *in, *out;             /* for a scene or a picture called "-"     */
+};
+
+/* Takes pictures in place of files. */
+struct reel_sink {
+    void *user;
+    void (*adjust)(void *user, struct brume_options *options);
+    bool (*take)(void *user, int number, const struct brume_frame *frame,
+                 struct brume_error *err);
 };
 
 struct reel {
@@ -55,6 +65,7 @@ struct reel {
     struct brume_still *still;      /* of --tree both                      */
     struct manifest *manifest;      /* or NULL                             */
     size_t skipped;                 /* pictures that were left out         */
+    const struct reel_sink *sink;   /* or NULL                             */
     int region[4];
 };
 

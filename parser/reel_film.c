@@ -180,7 +180,7 @@ static bool is_ours(const struct reel *reel, int number)
 static bool name_picture(struct reel *reel, struct reel_record *record,
                          struct brume_error *err)
 {
-    if (!reel->options->to_file)
+    if (!reel->options->to_file || reel->sink)
         return true;
     record->picture = naming_picture(reel->options, &reel->frames,
                                      record->number, &reel->arena);
@@ -223,6 +223,8 @@ static enum brume_code read_frame(struct film_run *run, struct reading *reading)
         return code;
     struct brume_options options = reel_options(reel, reading->record.number,
                                                 &scene);
+    if (reel->sink)
+        reel->sink->adjust(reel->sink->user, &options);
     reading->reach = brume_film_reach(&options);
     if (brume_film_push(run->film, scene.scene, &options, reading->picture,
                         &err))
@@ -273,6 +275,24 @@ static bool forget_below(struct film_run *run, int64_t number,
 
 /* ---- orders ------------------------------------------------------------ */
 
+/* Where the picture of an order goes. */
+static bool keep_picture(struct film_run *run, struct order *order,
+                         const struct brume_frame *frame,
+                         struct brume_error *err)
+{
+    struct reel *reel = run->reel;
+    struct reel_record *record = &order->record;
+    const struct reel_sink *sink = reel->sink;
+    if (sink)
+        return sink->take(sink->user, record->number, frame, err);
+    if (!write_frame(reel, frame, record, err) ||
+        !note_picture(reel, record, &order->origins, err) ||
+        !keep_record(reel, record, err))
+        return false;
+    reel->events->finished(reel->events->user, record);
+    return true;
+}
+
 static bool finish_picture(struct film_run *run, struct order *order,
                            struct brume_error *err)
 {
@@ -283,12 +303,8 @@ static bool finish_picture(struct film_run *run, struct order *order,
         return false;
     record->stats = frame.stats;
     warn_of_samples(reel, &frame.stats);
-    bool ok = write_frame(reel, &frame, record, err) &&
-              note_picture(reel, record, &order->origins, err) &&
-              keep_record(reel, record, err);
+    bool ok = keep_picture(run, order, &frame, err);
     brume_frame_free(&frame);
-    if (ok)
-        reel->events->finished(reel->events->user, record);
     return ok;
 }
 

@@ -1,0 +1,56 @@
+#!/bin/sh
+# brume measure --temporal: the filters of an animation by what they do.
+. "$(dirname "$0")/lib"
+
+cat >still.pov <<'END'
+#version 3.7;
+global_settings { integrator photon volume_photons { count 1000
+    field_spacing 0.2 } }
+camera { location <0, 0, -4> look_at 0 }
+light_source { <10, 10, -10> rgb 3 }
+sphere { 0, 1 hollow pigment { rgbt 1 }
+    interior { media { scattering { 1, 8 } absorption 0.1 } } }
+END
+
+# column NAME ROW: of the CSV, rows by the filter's name.
+column()
+{
+    awk -F, -v name="$1" -v row="\"$2\"" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i }
+        { gsub(/"adaptive,8"/, "\"most\"") }
+        $1 == row { print $c }' still.flicker.csv
+}
+
+# less A B
+less()
+{
+    awk "BEGIN { exit !($1 < $2) }" || complain "$1 is not less than $2"
+}
+
+new_case 'a scene that stands still'
+brume measure --temporal still.pov +W12 +H12 --spp 4 +KFF8 --backend cpu
+exits 0
+prints '8 frames, 4 samples a pixel'
+has still.flicker.csv
+is "$(wc -l <still.flicker.csv)" 6
+less "$(column flicker 3)" "$(column flicker 1)"
+less "$(column flicker adaptive)" "$(column flicker 3)"
+less "$(column difference 5)" "$(column difference 1)"
+less 0.9 "$(column detail adaptive)"
+less "$(column detail adaptive)" 1.1
+is "$(column ring_bytes 1)" 0
+less "$(column ring_bytes 3)" "$(column ring_bytes 5)"
+lacks still1.png still.frames.jsonl
+
+new_case 'what it cannot do'
+brume measure --temporal still.pov
+exits 2
+says 'needs an animation'
+brume measure --temporal still.pov +KFF4 --error 0.1
+exits 2
+says 'tries --spp, --error and --time itself'
+brume measure --temporal still.pov +KFF4 --reference x.exr
+exits 2
+says "are for 'brume measure'"
+
+end_cases
