@@ -109,6 +109,64 @@ static void filter__variance_is_that_of_the_weights(void **state)
         fail_msg("5 taps: %.4f of the variance, not 0.26", five / one);
 }
 
+/* Fields that swing with f cycles a frame come out times the filter's response
+ * (METHODS.md 13.10, T12). */
+static void check_response(int taps, const double *frequency,
+                           const double *response)
+{
+    struct filter_field field[5];
+    const struct filter_field *list[5];
+    struct brume_options o = options(taps, 1);
+    struct flat *flat = NULL;
+    for (int k = 0; k < taps; k++) {
+        flat_free(flat);
+        flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
+        list[k] = &field[k];
+    }
+    for (int i = 0; i < 3; i++) {
+        double most = 0.0;
+        for (int k = 0; k < taps; k++) {
+            double swing = cos(2.0 * TRUTH_PI * frequency[i] * (k - taps / 2));
+            for (size_t n = 0; n < field[k].count; n++)
+                field[k].cells[n] = (float)(2.0 + swing);
+        }
+        filter_mean(flat, list, o.photons.weight, taps / 2, 1);
+        for (size_t n = 0; n < flat->radiance_count; n++)
+            most = fmax(most,
+                        fabs((double)flat->radiance[n] - 2.0 - response[i]));
+        if (!(most < 5e-5))
+            fail_msg("%d taps, f = %g: %g off", taps, frequency[i], most);
+    }
+    for (int k = 0; k < taps; k++)
+        filter_release(&field[k]);
+    flat_free(flat);
+}
+
+static void filter__response(void **state)
+{
+    (void)state;
+    const double f[3] = {0.1, 0.25, 0.5};
+    check_response(3, f, (double[]){0.9045, 0.5, 0.0});
+    check_response(5, f, (double[]){0.7854, 0.2, 0.2});
+}
+
+/* Noise of one frame and of the next after the filter. */
+static void filter__correlation(void **state)
+{
+    (void)state;
+    const double truth[] = {2.0 / 3.0, 0.769};
+    for (int i = 0; i < 2; i++) {
+        struct brume_photon_options o;
+        double next = 0.0, same = 0.0;
+        assert_true(brume_film_taps(&o, 3 + 2 * i));
+        for (int k = 0; k < o.taps; k++) {
+            same += o.weight[k] * o.weight[k];
+            next += k > 0 ? o.weight[k] * o.weight[k - 1] : 0.0;
+        }
+        assert_float_equal(next / same, truth[i], 5e-4);
+    }
+}
+
 /* Weights that are found: nearly those of a plain mean where nothing changes,
  * and the frame's own alone where all does. The lamp that is brighter in one
  * half of the frames is a cut. */
@@ -420,6 +478,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filter__variance_is_that_of_the_weights),
+        cmocka_unit_test(filter__response),
+        cmocka_unit_test(filter__correlation),
         cmocka_unit_test(filter__adapts_to_change),
         cmocka_unit_test(filter__keeps_what_does_not_change),
         cmocka_unit_test(filter__fields_lie_in_space),
