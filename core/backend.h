@@ -55,7 +55,7 @@ static inline pixel_job backend_pixels(const struct backend_frame *frame)
     job.seed = o->seed;
     job.frame = o->frame;
     job.path = frame->stages->path || frame->stages->single;
-    job.lines = frame->stages->passes;
+    job.lines = frame->stages->lines;
     return job;
 }
 

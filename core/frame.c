@@ -313,7 +313,7 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
         !check_memory(j, j->flat, err))
         return false;
     j->stages = plan_stages(j->flat, j->options);
-    j->film.lines = j->stages.passes;
+    j->film.lines = j->stages.lines;
     struct backend_frame frame = {j->flat,  j->options, &j->stages,
                                   &j->film, tick,       j};
     j->state = open_backend(j, &j->backend, &frame, err);

@@ -107,6 +107,19 @@ static int scene_needs(const struct flat *f)
            (has_clear(f) ? MAY_CLEAR : 0);
 }
 
+/* Whether samples of functions along straight lines make noise that is seen,
+ * and that surfaces do not drown. */
+static bool has_noisy_lines(const struct flat *f)
+{
+    bool seen = f->sky_count > 0 || !rgb_is_black(f->view.background);
+    bool sampled = false;
+    for (size_t i = 0; i < f->media_count; i++) {
+        sampled |= f->media[i].sampled != 0;
+        seen |= f->media[i].sampled && f->media[i].emits;
+    }
+    return sampled && seen && !has_surfaces(f);
+}
+
 struct stages plan_stages(const struct flat *f,
                           const struct brume_options *options)
 {
@@ -124,6 +137,7 @@ struct stages plan_stages(const struct flat *f,
               options->photons.single == BRUME_SINGLE_FIELD;
     s.single = f->view.scatters && f->lights_count > 0 && !s.cells;
     s.path = has_surfaces(f) || (lit && !s.photons);
+    s.lines = s.passes || has_noisy_lines(f);
     s.needs = scene_needs(f) | (s.photons ? MAY_FIELD : 0);
     return s;
 }

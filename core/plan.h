@@ -13,6 +13,7 @@ struct stages {
     bool cells;             /* ... that holds what comes from lights too   */
     bool single;            /* what the lights give media, once scattered  */
     bool path;              /* anything beyond that                        */
+    bool lines;             /* a straight line for each sample             */
     int needs;              /* MAY_* of may.h: what the scene holds        */
 };
 

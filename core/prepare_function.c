@@ -13,7 +13,7 @@
 #include "lib/thread.h"
 
 /* Cells along the longest side, at first and at most, and at least across. */
-enum { FEW_CELLS = 16, MOST_CELLS = 64, LEAST_CELLS = 4 };
+enum { FEW_CELLS = 8, MOST_CELLS = 64, LEAST_CELLS = 4 };
 
 /* Free paths across the mean cell that scatters, above which smaller ones are
  * better: as in prepare_media.c. */

@@ -317,7 +317,7 @@ HD int path_media(const flat_scene *s, path_state *p, float t1,
     if (w.count == 0)
         return PATH_THROUGH;
     if (scene_may(MAY_CLEAR) && !path_walk_scatters(s, &w))
-        return path_line(s, p, p->after.t, t1);
+        return path_line(s, p, &w, p->after.t, t1);
     p->boost = 1.0f;
     if (p->straight || path_has_lamps(s))
         path_look(s, p, t1);

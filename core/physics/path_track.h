@@ -341,9 +341,21 @@ HD bool path_walk_scatters(const flat_scene *s, const media_walk *w)
     return false;
 }
 
-/* Where nothing scatters, the line integral is exact. */
-HD int path_line(const flat_scene *s, path_state *p, float t0, float t1)
+HD bool path_walk_attenuates(const flat_scene *s, const media_walk *w)
 {
+    for (int i = 0; i < walk_parts(w); i++)
+        if (!rgb_is_black(s->media[w->part[i].medium].sigma_t))
+            return true;
+    return false;
+}
+
+/* Where nothing scatters, the line integral is exact. On the straight line
+ * from the eye only what passes is asked for. */
+HD int path_line(const flat_scene *s, path_state *p, const media_walk *w,
+                 float t0, float t1)
+{
+    if (p->straight && !path_walk_attenuates(s, w))
+        return PATH_THROUGH;
     line_integral line = line_zero();
     line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
                    false, line_jitter(s, &p->random), &line);

@@ -4,6 +4,7 @@
 #include "core/physics/inside.h"
 #include "core/physics/march.h"
 #include "core/physics/single.h"
+#include "core/physics/sobol.h"
 
 /* Sums over samples. Halves of even and odd samples stand apart: their
  * difference tells the error (METHODS.md 10). */
@@ -26,7 +27,7 @@ typedef struct {
 
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
  * of the first samples, then by every eighth. Where each sample has a field of
- * its own, by `all`. */
+ * its own, or functions are sampled and it shows, by `all`. */
 enum { PIXEL_LINES_FIRST = 4, PIXEL_LINES_EVERY = 8 };
 
 HD bool pixel_has_line(uint32_t i, bool all)
@@ -34,11 +35,29 @@ HD bool pixel_has_line(uint32_t i, bool all)
     return all || i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
 }
 
-/* The half to which a sample's line counts: they alternate. */
-HD int pixel_line_half(uint32_t i, bool all)
+/* Which of the points of one half of the samples, or lines. */
+typedef struct {
+    uint32_t half, number;
+} pixel_place;
+
+HD pixel_place pixel_sample_place(uint32_t i)
 {
-    return (int)(all || i < PIXEL_LINES_FIRST ? i & 1u
-                                              : i / PIXEL_LINES_EVERY & 1u);
+    pixel_place p;
+    p.half = i & 1u;
+    p.number = i >> 1;
+    return p;
+}
+
+/* Of a sample's line. Halves alternate in the order of lines. */
+HD pixel_place pixel_line_place(uint32_t i, bool all)
+{
+    if (all || i < PIXEL_LINES_FIRST)
+        return pixel_sample_place(i);
+    uint32_t later = i / PIXEL_LINES_EVERY;     /* from 1 on: the odd half */
+    pixel_place p = pixel_sample_place(later - 1u);
+    p.half ^= 1u;
+    p.number += PIXEL_LINES_FIRST / 2u;
+    return p;
 }
 
 /* Lines of one half among the first n samples. */
@@ -62,9 +81,9 @@ HD void pixel_sum(double out[3], rgb c)
     out[2] += (double)c.b;
 }
 
-HD void pixel_line(const flat_scene *s, const pixel_job *job, vec3 o, vec3 d,
-                   const container_set *set, uint32_t sample, float along,
-                   film_pixel *out, track_counters *count)
+HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
+                   const container_set *set, uint32_t sample, uint32_t half,
+                   float along, film_pixel *out, track_counters *count)
 {
     march_result m = march_line(s, set, o, d, along);
     count->overflow += m.overflow;
@@ -72,7 +91,7 @@ HD void pixel_line(const flat_scene *s, const pixel_job *job, vec3 o, vec3 d,
         count->rejected++;
         return;
     }
-    pixel_sum(out->line[pixel_line_half(sample, job->lines != 0)], m.radiance);
+    pixel_sum(out->line[half], m.radiance);
     pixel_sum(out->background, m.background);
     pixel_sum(out->opacity, m.opacity);
     if (sample == 0u)
@@ -94,37 +113,33 @@ HD void pixel_containers(const flat_scene *s, vec3 o, vec3 d,
         set->shape[part_place(i)] = s->camera_containers[i];
 }
 
-/* Numbers of a sample that fill the unit cube evenly with those of the other
- * samples of its pixel, from a corner of their own [Roberts 2018]. Even and
- * odd samples go apart, so that their difference still tells the error. */
-HD void pixel_spread(const pixel_job *job, uint64_t index, uint32_t i,
-                     float u[3])
+/* Three numbers that fill the unit cube evenly with those of the same half of
+ * the pixel's samples. The halves are apart, so that their difference tells
+ * the error. */
+HD void pixel_spread(const pixel_job *job, uint64_t index, pixel_place at,
+                     float u[SOBOL_DIMENSIONS])
 {
-    rng corner = rng_make(job->seed, job->frame, 0xfffffffeu | (i & 1u), index);
-    uint32_t n = i >> 1;
-    uint32_t x = rng_u32(&corner) + n * 0xd1b54a33u;
-    uint32_t y = rng_u32(&corner) + n * 0xabc98389u;
-    uint32_t z = rng_u32(&corner) + n * 0x8cb92ba7u;
-    u[0] = (float)(x >> 8) * 5.96046448e-08f;
-    u[1] = (float)(y >> 8) * 5.96046448e-08f;
-    u[2] = (float)(z >> 8) * 5.96046448e-08f;
+    rng seed = rng_make(job->seed, job->frame, 0xfffffffeu | at.half, index);
+    uint32_t x[SOBOL_DIMENSIONS];
+    sobol_point(at.number, x);
+    for (int i = 0; i < SOBOL_DIMENSIONS; i++)
+        u[i] = sobol_float(sobol_scramble(x[i], rng_u32(&seed)));
 }
 
-/* The eye's ray of sample i of pixel (x, y), and where it starts; *along is
- * the sample's place in the third dimension. */
-HD rng pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
-                 int32_t y, uint32_t i, vec3 *o, vec3 *d, container_set *set,
-                 float *along)
+/* An eye's ray of pixel (x, y), and where it starts; *along is its place in
+ * the third dimension. */
+HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
+                  int32_t y, pixel_place at, vec3 *o, vec3 *d,
+                  container_set *set, float *along)
 {
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
-    float spread[3];
-    pixel_spread(job, index, i, spread);
+    float spread[SOBOL_DIMENSIONS];
+    pixel_spread(job, index, at, spread);
     float u = ((float)x + spread[0]) / (float)job->width - 0.5f;
     float v = 0.5f - ((float)y + spread[1]) / (float)job->height;
     camera_ray(&s->view, u, v, o, d);
     pixel_containers(s, *o, *d, set);
     *along = spread[2];
-    return rng_make(job->seed, job->frame, i, index);
 }
 
 /* The straight lines of samples [first, first + n) of pixel (x, y). */
@@ -138,8 +153,9 @@ HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
         container_set set;
         if (!pixel_has_line(i, job->lines != 0))
             continue;
-        pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
-        pixel_line(s, job, o, d, &set, i, along, out, count);
+        pixel_place at = pixel_line_place(i, job->lines != 0);
+        pixel_ray(s, job, x, y, at, &o, &d, &set, &along);
+        pixel_line(s, o, d, &set, i, at.half, along, out, count);
     }
 }
 
@@ -150,7 +166,9 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
     vec3 o, d;
     float along;
     container_set set;
-    rng random = pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
+    uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
+    pixel_ray(s, job, x, y, pixel_sample_place(i), &o, &d, &set, &along);
+    rng random = rng_make(job->seed, job->frame, i, index);
     path_begin(path, o, d, &set, true, random);
     path->along = along;
     count->paths++;

@@ -152,7 +152,7 @@ static void photon_ball__light_stays_where_media_are_thick(void **state)
     struct brume_options o = ball_options(1);
     o.integrator = BRUME_INTEGRATOR_PATH;
     o.spp = 512;
-    render_often(s, o, 8, &truth, &error);
+    render_often(s, o, 16, &truth, &error);
     o.integrator = BRUME_INTEGRATOR_PHOTON;
     o.spp = 64;
     o.photons.count = 150000;
@@ -160,7 +160,7 @@ static void photon_ball__light_stays_where_media_are_thick(void **state)
         const double *row = rows[i / 2];
         o.photons.spacing = row[0];
         o.photons.single = (enum brume_single)(i % 2);
-        render_often(s, o, 4, &mean, &noise);
+        render_often(s, o, 6, &mean, &noise);
         if (!(fabs(mean / truth - 1.0) < row[1]) ||
             !(hypot(error, noise) < 0.005 * truth))
             fail_msg("cells of %g, single %d: %.5f +- %.5f, path %.5f +- %.5f",

@@ -1,0 +1,104 @@
+/* test_sobol.c - the points of a pixel: how evenly they lie, for any seed; and
+ * that lines and samples take them without a gap. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include "core/physics/pixel.h"
+
+enum { SEEDS = 20, MOST = 10 };
+
+static uint32_t seed_of(int i)
+{
+    return (uint32_t)rng_mix((uint64_t)i + 1);
+}
+
+static void point(uint32_t n, int seed, uint32_t out[SOBOL_DIMENSIONS])
+{
+    sobol_point(n, out);
+    for (int d = 0; d < SOBOL_DIMENSIONS; d++)
+        out[d] = sobol_scramble(out[d], seed_of(SOBOL_DIMENSIONS * seed + d));
+}
+
+/* Of 2^k points one is in each of the 2^k intervals of each coordinate. */
+static void test_intervals(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < SEEDS; seed++)
+        for (int k = 1; k <= MOST; k++) {
+            unsigned char taken[SOBOL_DIMENSIONS][1 << MOST] = {{0}};
+            for (uint32_t n = 0; n < 1u << k; n++) {
+                uint32_t x[SOBOL_DIMENSIONS];
+                point(n, seed, x);
+                for (int d = 0; d < SOBOL_DIMENSIONS; d++)
+                    assert_int_equal(taken[d][x[d] >> (32 - k)]++, 0);
+            }
+        }
+}
+
+/* ... and of each shape of rectangles of that area in the pixel. */
+static void test_rectangles(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < SEEDS; seed++)
+        for (int wide = 1; wide < MOST; wide++) {
+            unsigned char taken[1 << MOST] = {0};
+            for (uint32_t n = 0; n < 1u << MOST; n++) {
+                uint32_t x[SOBOL_DIMENSIONS];
+                point(n, seed, x);
+                uint32_t at = x[0] >> (32 - wide) << (MOST - wide);
+                at |= x[1] >> (32 - (MOST - wide));
+                assert_int_equal(taken[at]++, 0);
+            }
+        }
+}
+
+/* Where a point lies depends on the seed alone, and any place is as likely. */
+static void test_seeds(void **state)
+{
+    (void)state;
+    enum { RUNS = 40000, BINS = 16 };
+    for (uint32_t n = 0; n < 5; n++)
+        for (int d = 0; d < SOBOL_DIMENSIONS; d++) {
+            int count[BINS] = {0};
+            double chi = 0;
+            for (int i = 0; i < RUNS; i++) {
+                uint32_t x[SOBOL_DIMENSIONS];
+                point(n, i, x);
+                float v = sobol_float(x[d]);
+                assert_true(v >= 0 && v < 1);
+                count[(int)(v * BINS)]++;
+            }
+            for (int i = 0; i < BINS; i++) {
+                double off = count[i] - (double)RUNS / BINS;
+                chi += off * off / ((double)RUNS / BINS);
+            }
+            assert_true(chi < 45); /* 15 degrees: 1 in 10^4 */
+        }
+}
+
+/* Each half's lines take its points in turn, and are counted right. */
+static void test_lines(void **state)
+{
+    (void)state;
+    for (int sampled = 0; sampled < 2; sampled++) {
+        uint32_t next[2] = {0, 0};
+        for (uint32_t i = 0; i < 300; i++) {
+            for (int half = 0; half < 2; half++)
+                assert_int_equal(pixel_lines(i, half, sampled), next[half]);
+            if (!pixel_has_line(i, sampled))
+                continue;
+            pixel_place at = pixel_line_place(i, sampled);
+            assert_int_equal(at.number, next[at.half]++);
+        }
+        assert_true(next[0] + next[1] == (sampled ? 300 : 41));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_intervals), cmocka_unit_test(test_rectangles),
+        cmocka_unit_test(test_seeds), cmocka_unit_test(test_lines)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
