@@ -88,8 +88,8 @@ endif
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all unit tools fuzzers setup demo test test-all fuzz bench \
-        do-demo do-test do-test-all \
+.PHONY: all unit tools fuzzers setup demo film test test-all fuzz bench \
+        do-demo do-film do-test do-test-all \
         lint format install bundle clean
 all: $(B)/brume
 
@@ -151,14 +151,27 @@ fuzzers: $(FUZZERS)
 setup:
 	@.ci/setup
 
-demo test test-all: setup
+demo film test test-all: setup
 	@+$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$$(nproc)) do-$@
 
 do-demo: $(B)/brume
 	@mkdir -p $(B)/demo
 	$(B)/brume scenes/quickstart.pov +W640 +H480 +O$(B)/demo/quickstart.exr
 	$(B)/brume scenes/quickstart.pov +W640 +H480 +O$(B)/demo/quickstart.png
-	@echo 'The pictures are $(B)/demo/quickstart.exr and .png.'
+	$(FILM)
+	@echo 'The pictures are $(B)/demo/quickstart.exr and .png,'
+	@echo 'the film $(B)/demo/campfire1.png to campfire8.png; make film joins it.'
+
+# Eight frames, those that are finished left out; as a film where ffmpeg is.
+FILM = $(B)/brume scenes/campfire.ini +W240 +H180 +V --resume +O$(B)/demo/campfire.png
+do-film: $(B)/brume
+	@mkdir -p $(B)/demo
+	$(FILM)
+	@if command -v ffmpeg >/dev/null; then \
+	    ffmpeg -v error -y -framerate 12 -i $(B)/demo/campfire%d.png \
+	        -vf loop=5:8 -pix_fmt yuv420p $(B)/demo/campfire.mp4 && \
+	    echo 'The film is $(B)/demo/campfire.mp4.'; \
+	else echo 'ffmpeg, which would join the frames, is not installed.'; fi
 
 do-test: $(B)/brume $(UNITS) $(TOOLS)
 	@B=$(B) tests/run

@@ -19,8 +19,12 @@ global_settings {
     accuracy 0.09       // stop at this relative error of the picture
 }
 
+// In a film the clock goes from 0 to 1: the eye moves on, the moon sets, the
+// guest turns. A still shows the middle of that.
+#declare Time = (clock_on ? clock : 0.5);
+
 camera {
-    location <0.95, 0.85, -3.1>
+    location <0.95, 0.85, -3.1> + 0.3 * (Time - 0.5) * x
     right x * image_width / image_height
     angle 42
     look_at <-0.26, 0.70, 0>
@@ -29,7 +33,7 @@ camera {
 background { rgb <0.010, 0.016, 0.034> }
 
 // The moon: far away, and no dimmer for it, since nothing says fade_distance.
-light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.13 }
+light_source { <-400, 500, -250> rgb <0.6, 0.75, 1> * 0.13 * (1.5 - Time) }
 
 // ---- the ground
 
@@ -105,7 +109,7 @@ mesh {
     ply "campfire/spot.ply"
     translate 0.737 * y         // on her feet
     scale 0.62
-    rotate -128 * y             // her face to the fire
+    rotate (-128 + 16 * (Time - 0.5)) * y   // her face to the fire
     translate <-1.22, 0, 0.25>
     pigment { color rgb <0.80, 0.76, 0.70> }
     finish { diffuse 0.85 ambient 0 specular 0.2 roughness 0.03 }

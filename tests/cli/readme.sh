@@ -21,6 +21,7 @@ while read -r program words; do
     new_case "$program $words"
     is "$program" build/brume
     case $words in
+    *--temporal*) least='--spp 1 --photons 100' ;;
     measure*) least='--budget 1' ;;
     *) least='--spp 1' ;;
     esac
@@ -30,6 +31,6 @@ while read -r program words; do
 done <commands
 
 new_case 'they leave their pictures'
-has fog.png fog.exr
+has fog.png fog.exr film1.png film4.png fog.flicker.csv
 
 end_cases
