@@ -163,7 +163,7 @@ do-demo: $(B)/brume
 	@echo 'the film $(B)/demo/campfire1.png to campfire8.png; make film joins it.'
 
 # Eight frames, those that are finished left out; as a film where ffmpeg is.
-FILM = $(B)/brume scenes/campfire.ini +W240 +H180 +V --resume +O$(B)/demo/campfire.png
+FILM = $(B)/brume scenes/campfire.ini +W192 +H144 +V --resume +O$(B)/demo/campfire.png
 do-film: $(B)/brume
 	@mkdir -p $(B)/demo
 	$(FILM)

@@ -271,7 +271,7 @@ static bool build_tree(const struct prepare *job, struct bvh_item *items,
     bool good = false;
     switch (job->tree) {
     case BRUME_TREE_BVH:
-        good = bvh_build(f, items, count, err);
+        good = still_bvh(job->still, f, items, count, err);
         break;
     case BRUME_TREE_KD:
         good = kd_build(f, items, count, job->tree_stack, err);

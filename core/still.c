@@ -18,11 +18,23 @@ static void forget_tree(struct brume_still *s)
     s->nodes = s->references = s->items = 0;
 }
 
+static void forget_bvh(struct brume_still *s)
+{
+    free(s->all);
+    free(s->bvh);
+    free(s->bvh_item);
+    s->all = NULL;
+    s->bvh = NULL;
+    s->bvh_item = NULL;
+    s->alls = s->bvhs = s->bvh_items = 0;
+}
+
 BRUME_API void brume_still_free(struct brume_still *still)
 {
     if (!still)
         return;
     forget_tree(still);
+    forget_bvh(still);
     free(still->before);
     free(still->item);
     free(still);
@@ -168,4 +180,57 @@ bool still_build(struct brume_still *still, struct flat *flat,
     for (size_t i = 0; good && i < flat->kd_items_count; i++)
         flat->kd_items[i] = rest[flat->kd_items[i]].name;
     return good && bvh_build(flat, items, moving, err);
+}
+
+/* ---- a tree of all ------------------------------------------------------ */
+
+static bool take_bvh(const struct brume_still *s, struct flat *flat,
+                     struct brume_error *err)
+{
+    bvh_node *node = FLAT_EXTEND(flat, bvh, s->bvhs, err);
+    uint32_t *item = FLAT_EXTEND(flat, bvh_items, s->bvh_items, err);
+    if (!node || !item)
+        return false;
+    memcpy(node, s->bvh, s->bvhs * sizeof *node);
+    memcpy(item, s->bvh_item, s->bvh_items * sizeof *item);
+    return true;
+}
+
+/* Without memory for it nothing is kept. */
+static void keep_bvh(struct brume_still *s, const struct flat *flat)
+{
+    s->bvh = memory_new(flat->bvh_count, sizeof *s->bvh, NULL);
+    s->bvh_item = memory_new(flat->bvh_items_count, sizeof *s->bvh_item, NULL);
+    if (!s->bvh || !s->bvh_item) {
+        forget_bvh(s);
+        return;
+    }
+    s->bvhs = flat->bvh_count;
+    s->bvh_items = flat->bvh_items_count;
+    memcpy(s->bvh, flat->bvh, s->bvhs * sizeof *s->bvh);
+    memcpy(s->bvh_item, flat->bvh_items, s->bvh_items * sizeof *s->bvh_item);
+}
+
+bool still_bvh(struct brume_still *still, struct flat *flat,
+               struct bvh_item *items, size_t count, struct brume_error *err)
+{
+    bool first = flat->bvh_count == 0 && flat->bvh_items_count == 0;
+    if (!still || !first || count == 0)
+        return bvh_build(flat, items, count, err);
+    size_t size = count * sizeof *items;
+    if (still->bvh && still->alls == count &&
+        memcmp(still->all, items, size) == 0)
+        return take_bvh(still, flat, err);
+    forget_bvh(still);
+    still->all = memory_new(count, sizeof *items, NULL);
+    if (still->all) {
+        memcpy(still->all, items, size);
+        still->alls = count;
+    }
+    still->bvh_builds++;
+    if (!bvh_build(flat, items, count, err))
+        return false;
+    if (still->all)
+        keep_bvh(still, flat);
+    return true;
 }

@@ -15,6 +15,13 @@ struct brume_still {
     size_t nodes, references;
     bvh_node box;
     int builds;             /* of the tree, so far                         */
+    /* Of BRUME_TREE_BVH: all of the last frame's items, and their tree. */
+    struct bvh_item *all;
+    size_t alls;
+    bvh_node *bvh;
+    uint32_t *bvh_item;
+    size_t bvhs, bvh_items;
+    int bvh_builds;
 };
 
 /* Builds the BVH of what was not there in the frame before, and takes over or
@@ -23,4 +30,9 @@ struct brume_still {
 bool still_build(struct brume_still *still, struct flat *flat,
                  struct bvh_item *items, size_t count, int stack,
                  struct brume_error *err);
+
+/* Builds the BVH of all items, or takes over the last frame's where all are
+ * the same; the first tree of `flat`. `still` may be NULL. */
+bool still_bvh(struct brume_still *still, struct flat *flat,
+               struct bvh_item *items, size_t count, struct brume_error *err);
 #endif

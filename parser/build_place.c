@@ -39,7 +39,8 @@ static int send_mesh(struct parser *parser, struct model_mesh *mesh,
 {
     if (mesh->id < 0) {
         mesh->id = brume_add_mesh(parser->out->scene, mesh->mesh, err);
-        mesh_free(mesh->mesh);
+        if (!mesh->kept)
+            mesh_free(mesh->mesh);
         mesh->mesh = NULL;
     }
     return mesh->id;

@@ -1,5 +1,6 @@
 #include "parser/load.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "lib/df3.h"
@@ -9,6 +10,7 @@
 #include "lib/obj.h"
 #include "lib/ply.h"
 #include "parser/builder.h"
+#include "parser/cache.h"
 
 struct loaded_grid {
     struct loaded_grid *next;
@@ -290,6 +292,30 @@ static bool send_grid(struct parser *parser, const struct data_file *file,
     return out->id >= 0 || parser_relay(parser, file->at, &err);
 }
 
+static void release_grid(void *grid)
+{
+    grid_free(grid);
+}
+
+/* From the cache, or from the file; *kept: the cache has it. */
+static struct grid *read_grid(struct parser *parser,
+                              const struct data_file *file,
+                              const struct loaded_grid *as, bool *kept,
+                              struct brume_error *err)
+{
+    struct parse_cache *cache = parser->in->cache;
+    char key[192];
+    snprintf(key, sizeof key, "%s %s %d %.17g %.17g %d", file->format, as->name,
+             (int)as->filter, as->radius, as->voxel, as->neighbors);
+    struct grid *grid = cache_find(cache, as->path, key);
+    *kept = grid != NULL;
+    if (grid)
+        return grid;
+    grid = format_of(file)->load(file, as->path, as->name, as->filter, err);
+    *kept = grid && cache_put(cache, as->path, key, grid, release_grid);
+    return grid;
+}
+
 static struct loaded_grid *load_grid(struct parser *parser,
                                      const struct data_file *file,
                                      const char *path, const char *name,
@@ -306,13 +332,15 @@ static struct loaded_grid *load_grid(struct parser *parser,
     out->radius = file->radius;
     out->neighbors = file->neighbors;
     out->voxel = file->voxel;
-    struct grid *grid = format_of(file)->load(file, path, name, filter, &err);
+    bool kept;
+    struct grid *grid = read_grid(parser, file, out, &kept, &err);
     if (!grid) {
         parser_relay(parser, file->at, &err);
         return NULL;
     }
     bool sent = send_grid(parser, file, grid, out);
-    grid_free(grid);
+    if (!kept)
+        grid_free(grid);
     if (!sent)
         return NULL;
     out->next = parser->builder->loader.grids;
@@ -365,6 +393,11 @@ bool load_density(struct parser *parser, const struct data_file *file,
 
 /* ---- meshes ------------------------------------------------------------ */
 
+static void release_mesh(void *mesh)
+{
+    mesh_free(mesh);
+}
+
 static struct model_mesh *
 read_mesh(struct parser *parser, const struct data_file *file, const char *path)
 {
@@ -374,8 +407,15 @@ read_mesh(struct parser *parser, const struct data_file *file, const char *path)
     if (!out)
         return NULL;
     out->id = -1;
-    out->mesh = !strcmp(file->format, "ply") ? ply_load(path, &err)
-                                             : obj_load(path, &err);
+    out->mesh = cache_find(parser->in->cache, path, file->format);
+    out->kept = out->mesh != NULL;
+    if (!out->mesh) {
+        out->mesh = !strcmp(file->format, "ply") ? ply_load(path, &err)
+                                                 : obj_load(path, &err);
+        out->kept = out->mesh &&
+                    cache_put(parser->in->cache, path, file->format, out->mesh,
+                              release_mesh);
+    }
     if (!out->mesh) {
         parser_relay(parser, file->at, &err);
         return NULL;

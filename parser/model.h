@@ -94,6 +94,7 @@ struct material {
 /* Read from a file or from triangles; given to core when first placed. */
 struct model_mesh {
     struct mesh *mesh;              /* freed once core has it              */
+    bool kept;                      /* by the cache, which frees it        */
     int id;                         /* in core, or -1                      */
     struct model_mesh *next;        /* of all meshes of the scene          */
 };

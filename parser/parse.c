@@ -1,5 +1,6 @@
 #include "parser/parse.h"
 #include "parser/build.h"
+#include "parser/cache.h"
 #include "parser/expander.h"
 #include "parser/parser.h"
 #include "parser/reader.h"
@@ -176,6 +177,7 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     parser.limits = limits_of(in);
     parser.version = in->version > 0 ? in->version : VERSION_DEFAULT;
     arena_init(&parser.arena, parser.limits.memory);
+    cache_begin(in->cache);
     bool done = begin_scene(&parser) && read_scene(&parser) &&
                 diag->errors == 0;
     if (!done) {
@@ -184,6 +186,7 @@ bool parse_scene(const struct parse_input *in, struct parse_result *out,
     }
     out->version = parser.version;
     build_release(&parser);
+    cache_end(in->cache);
     stream_release(&parser);
     reader_release(&parser);
     source_release(&parser);

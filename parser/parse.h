@@ -69,6 +69,12 @@ struct parse_origins {
 };
 void parse_origins_release(struct parse_origins *origins);
 
+/* Grids and meshes of the files that the last scene named: where the next one
+ * of the film names one that has not changed, it is not read again. */
+struct parse_cache;
+struct parse_cache *parse_cache_new(struct brume_error *err);
+void parse_cache_free(struct parse_cache *cache);
+
 struct parse_input {
     const char *path;           /* the scene; "-" if text is not a file's  */
     const char *text;           /* read already (standard input); or NULL  */
@@ -91,6 +97,7 @@ struct parse_input {
     size_t allow_reads, allow_writes;   /* the output folder is the last   */
     struct parse_written *written;      /* or NULL                         */
     struct parse_origins *origins;      /* or NULL                         */
+    struct parse_cache *cache;          /* or NULL                         */
     const struct parse_declare *declare;
     size_t declares;
     struct parse_ambient ambient;

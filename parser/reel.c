@@ -146,9 +146,11 @@ static bool begin(struct reel *reel, struct brume_error *err)
         !open_manifest(reel, err))
         return false;
     warn_of_extension(reel);
-    if (reel->options->tree == BRUME_TREE_BOTH)
-        reel->still = brume_still_new(err);
-    return reel->options->tree != BRUME_TREE_BOTH || reel->still;
+    if (reel->options->tree != BRUME_TREE_BOTH && !reel->frames.animation)
+        return true;
+    reel->still = brume_still_new(err);
+    reel->cache = parse_cache_new(err);
+    return reel->still && reel->cache;
 }
 
 /* ---- one frame --------------------------------------------------------- */
@@ -175,6 +177,7 @@ static bool read_scene(struct reel *reel, int number,
         .allow_write = reel->allow_write,
         .allow_writes = reel->allow_writes,
         .written = &reel->written,
+        .cache = reel->cache,
         .origins = reel->manifest ? origins : NULL,
         .declare = options->declare,
         .declares = options->declares,
@@ -411,6 +414,7 @@ void reel_release(struct reel *reel)
 {
     parse_written_release(&reel->written);
     brume_still_free(reel->still);
+    parse_cache_free(reel->cache);
     manifest_close(reel->manifest);
     arena_release(&reel->arena);
 }

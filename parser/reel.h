@@ -62,7 +62,8 @@ struct reel {
     const char *const *library, *const *allow_write;
     size_t libraries, allow_writes;
     struct parse_written written;
-    struct brume_still *still;      /* of --tree both                      */
+    struct brume_still *still;      /* of an animation, and --tree both    */
+    struct parse_cache *cache;      /* or NULL                             */
     struct manifest *manifest;      /* or NULL                             */
     size_t skipped;                 /* pictures that were left out         */
     const struct reel_sink *sink;   /* or NULL                             */

@@ -232,6 +232,35 @@ static void test_still__film(void **state)
     free(t.corner);
 }
 
+/* The BVH of a film in which nothing moves is built once, and once more for
+ * each frame in which something did. */
+static void test_still__bvh(void **state)
+{
+    static const float shift[] = {0.0f, 0.0f, 0.0f, 0.1f, 0.1f, 0.0f};
+    static const int builds[] = {1, 1, 1, 2, 2, 3};
+    (void)state;
+    struct brume_error err = {0};
+    struct brume_still *still = brume_still_new(&err);
+    struct triangles t = triangles_degenerate(1000);
+    struct bvh_item *item = malloc(t.count * sizeof *item);
+    for (int i = 0; i < 6; i++) {
+        struct flat *f = tree_scene(&t, TREE_NONE, 1, &err);
+        for (size_t k = 0; k < t.count; k++) {
+            f->triangles[k].p[0].x += k == 500 ? shift[i] : 0.0f;
+            item[k] = triangle_bounds(f->triangles[k].p, (uint32_t)(1 + k));
+        }
+        assert_true(still_bvh(still, f, item, t.count, &err));
+        assert_int_equal(still->bvh_builds, builds[i]);
+        f->view.bvh_root = 0;
+        flat_view(f);
+        assert_finds_all(f, &t);
+        flat_free(f);
+    }
+    free(item);
+    brume_still_free(still);
+    free(t.corner);
+}
+
 /* Things that came and went give the others other numbers. */
 static void test_still__renumbered(void **state)
 {
@@ -260,6 +289,7 @@ int main(void)
         cmocka_unit_test(test_trees__nothing),
         cmocka_unit_test(test_trees__kd_divides),
         cmocka_unit_test(test_still__film),
+        cmocka_unit_test(test_still__bvh),
         cmocka_unit_test(test_still__renumbered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,113 @@
+#include "parser/cache.h"
+#include "lib/memory.h"
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+struct entry {
+    struct entry *next;
+    char *path, *key;
+    struct stat was;
+    void *item;
+    cache_release *release;
+    bool used; /* by the scene that is read              */
+};
+
+struct parse_cache {
+    struct entry *entry;
+};
+
+struct parse_cache *parse_cache_new(struct brume_error *err)
+{
+    return memory_new(1, sizeof(struct parse_cache), err);
+}
+
+static void free_entry(struct entry *e)
+{
+    if (e->item)
+        e->release(e->item);
+    free(e->path);
+    free(e->key);
+    free(e);
+}
+
+/* Drops those that `used` does not keep. */
+static void drop(struct parse_cache *cache, bool all)
+{
+    struct entry **at = &cache->entry;
+    while (*at) {
+        struct entry *e = *at;
+        if (e->used && !all) {
+            at = &e->next;
+            continue;
+        }
+        *at = e->next;
+        free_entry(e);
+    }
+}
+
+void parse_cache_free(struct parse_cache *cache)
+{
+    if (cache)
+        drop(cache, true);
+    free(cache);
+}
+
+void cache_begin(struct parse_cache *cache)
+{
+    for (struct entry *e = cache ? cache->entry : NULL; e; e = e->next)
+        e->used = false;
+}
+
+void cache_end(struct parse_cache *cache)
+{
+    if (cache)
+        drop(cache, false);
+}
+
+static bool is_same(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino &&
+           a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec &&
+           a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
+           a->st_ctim.tv_sec == b->st_ctim.tv_sec &&
+           a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
+}
+
+void *cache_find(struct parse_cache *cache, const char *path, const char *key)
+{
+    struct stat now;
+    if (!cache || stat(path, &now) != 0)
+        return NULL;
+    for (struct entry *e = cache->entry; e; e = e->next)
+        if (strcmp(e->path, path) == 0 && strcmp(e->key, key) == 0 &&
+            is_same(&e->was, &now)) {
+            e->used = true;
+            return e->item;
+        }
+    return NULL;
+}
+
+bool cache_put(struct parse_cache *cache, const char *path, const char *key,
+               void *item, cache_release *release)
+{
+    struct stat now;
+    struct entry *e = NULL;
+    if (cache && stat(path, &now) == 0 && S_ISREG(now.st_mode))
+        e = memory_new(1, sizeof *e, NULL);
+    if (!e)
+        return false;
+    *e = (struct entry){.next = cache->entry,
+                        .path = strdup(path),
+                        .key = strdup(key),
+                        .was = now,
+                        .release = release,
+                        .used = true};
+    if (!e->path || !e->key) {
+        free_entry(e);
+        return false;
+    }
+    e->item = item;
+    cache->entry = e;
+    return true;
+}
