@@ -1,11 +1,12 @@
 /* photons_kernel.cuh - the kernels of the integrator photon. PHOTON_STAGE names
  * what is defined here, SCENE_MAY what it can do.
  *
- * A warp takes a chunk of photons and its threads take them in turn, a step of
- * a flight at a time: while most fly, those that have landed wait for others
- * to land with them. Who takes which does not depend on time, so that the books
- * come out the same from run to run; the sums of cells are whole numbers. */
+ * A warp takes a chunk of photons and its threads take them in turn. What a
+ * thread has to do next is its phase; the warp does what most of them wait for.
+ * Who takes which photon does not depend on time, so that the books come out
+ * the same from run to run; the sums of cells are whole numbers. */
 #include "core/cuda/count.cuh"
+#include "core/cuda/phase.cuh"
 #include "core/cuda/photons.cuh"
 #include "core/physics/lit_cell.h"
 
@@ -15,10 +16,14 @@ namespace
 const int warp_size = 32;
 /* Warps that a multiprocessor must have room for: 128 registers a thread. */
 const int warps_at_once = 16;
-/* Of those that fly, this many parts in eight go on alone. */
-const int few_fly = 5;
-
-enum { PHOTON_IDLE, PHOTON_READY, PHOTON_FLYING, PHOTON_LANDED };
+enum phase {
+    PHASE_BIRTH,
+    PHASE_TAKE_OFF,
+    PHASE_TRACK,
+    PHASE_LAY,
+    PHASE_LAND,
+    PHASES                  /* no photon is left                           */
+};
 
 struct tracer {
     photon_state photon;
@@ -26,33 +31,48 @@ struct tracer {
     int phase;
 };
 
-/* Gives the idle threads of the warp the next photons; *next is the same in
- * all of them. */
+/* Gives threads that wait for one the next photons; *next is the same in all
+ * threads of the warp. */
 __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
                                              photon_counters *count,
                                              uint64_t *next, uint64_t end)
 {
-    unsigned idle = __ballot_sync(~0u, t->phase == PHOTON_IDLE);
-    unsigned before = idle & ((1u << threadIdx.x) - 1u);
-    uint64_t mine = *next + __popc(before);
-    if (t->phase == PHOTON_IDLE && mine < end &&
-        photon_begin(&job->scene, &job->photons, mine, &t->photon, count))
-        t->phase = PHOTON_READY;
-    *next += __popc(idle);
+    bool idle = t->phase == PHASE_BIRTH;
+    unsigned all = __ballot_sync(~0u, idle);
+    uint64_t mine = *next + __popc(all & ((1u << threadIdx.x) - 1u));
+    *next += __popc(all);
     *next = *next < end ? *next : end;
+    if (idle && mine >= end)
+        t->phase = PHASES;
+    else if (idle && photon_begin(&job->scene, &job->photons, mine, &t->photon,
+                                  count))
+        t->phase = PHASE_TAKE_OFF;
 }
 
-/* Flies until many have landed, at least a step. */
-__device__ __forceinline__ void fly(const trace_job *job, tracer *t,
-                                    photon_counters *count)
+__device__ __forceinline__ int flight_phase(const photon_flight *f)
 {
-    int left, all = __popc(__ballot_sync(~0u, t->phase == PHOTON_FLYING));
-    do {
-        if (t->phase == PHOTON_FLYING &&
-            !photon_step(&job->scene, &t->photon, count, &t->flight))
-            t->phase = PHOTON_LANDED;
-        left = __popc(__ballot_sync(~0u, t->phase == PHOTON_FLYING));
-    } while (8 * left > few_fly * all);
+    return f->lays ? PHASE_LAY : f->flies ? PHASE_TRACK : PHASE_LAND;
+}
+
+/* Does what the threads of that phase wait for. */
+__device__ __forceinline__ void go_on(const trace_job *job, tracer *t,
+                                      photon_counters *count, int phase)
+{
+    const flat_scene *s = &job->scene;
+    if (t->phase != phase)
+        return;
+    if (phase == PHASE_LAND) {
+        bool alive = photon_land(s, &t->photon, count, &t->flight);
+        t->phase = alive ? PHASE_TAKE_OFF : PHASE_BIRTH;
+        return;
+    }
+    if (phase == PHASE_TAKE_OFF)
+        photon_take_off(s, &t->photon, count, &t->flight);
+    else if (phase == PHASE_TRACK)
+        photon_track(s, &t->photon, count, &t->flight);
+    else
+        photon_lay(s, &t->photon, count, &t->flight);
+    t->phase = flight_phase(&t->flight);
 }
 
 __device__ __forceinline__ void write_counts(const trace_job *job,
@@ -74,27 +94,18 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
 __global__ void __launch_bounds__(warp_size, warps_at_once)
 trace_photons(const __grid_constant__ trace_job job)
 {
-    const flat_scene *s = &job.scene;
     uint64_t next = job.first + blockIdx.x * job.chunk;
     uint64_t end = next + job.chunk < job.last ? next + job.chunk : job.last;
     photon_counters count = {};
     tracer t;
+    int phase;
     count.tally.sum = job.sum;
-    t.phase = PHOTON_IDLE;
-    for (;;) {
-        take_photons(&job, &t, &count, &next, end);
-        if (!__any_sync(~0u, t.phase != PHOTON_IDLE) && next >= end)
-            break;
-        if (t.phase == PHOTON_READY)
-            t.phase = photon_take_off(s, &t.photon, &count, &t.flight)
-                          ? PHOTON_FLYING
-                          : PHOTON_LANDED;
-        fly(&job, &t, &count);
-        if (t.phase == PHOTON_LANDED)
-            t.phase = photon_land(s, &t.photon, &count, &t.flight)
-                          ? PHOTON_READY
-                          : PHOTON_IDLE;
-    }
+    t.phase = PHASE_BIRTH;
+    while ((phase = phase_busiest(t.phase, PHASES)) != PHASES)
+        if (phase == PHASE_BIRTH)
+            take_photons(&job, &t, &count, &next, end);
+        else
+            go_on(&job, &t, &count, phase);
     write_counts(&job, &count);
 }
 

@@ -174,11 +174,18 @@ HD uint32_t fm_two_over_pi(uint32_t i)
     }
 }
 
+typedef struct {
+    float rest;
+    int quadrant;
+} fm_turn;
+
 /* x modulo pi/2 for finite x > FM_SIN_CODY: the significand m times those 96
  * bits of 2/pi that neither are multiples of 4 nor vanish [Payne and Hanek
- * 1983]. Returns the rest in [-pi/4, pi/4] and the quotient modulo 4. */
-HD float fm_reduce_large(float x, int *quadrant)
+ * 1983]. Returns the rest in [-pi/4, pi/4] and the quotient modulo 4. Apart:
+ * it would be a quarter of a kernel. */
+HD_APART fm_turn fm_turn_large(float x)
 {
+    fm_turn out;
     uint32_t u = fm_bits(x);
     uint64_t m = (u & 0x007fffffu) | 0x00800000u;
     uint32_t offset = (u >> 23) - 150u + 30u;       /* x = m 2^(offset-30) */
@@ -190,8 +197,16 @@ HD float fm_reduce_large(float x, int *quadrant)
         part[i] = two << shift >> 32;
     }
     uint64_t turns = (m * part[0] << 32) + m * part[1] + (m * part[2] >> 32);
-    *quadrant = (int)((turns + (1ull << 61)) >> 62 & 3u);
-    return (float)(int64_t)(turns << 2) * 8.51530395e-20f;  /* pi/2 2^-64 */
+    out.quadrant = (int)((turns + (1ull << 61)) >> 62 & 3u);
+    out.rest = (float)(int64_t)(turns << 2) * 8.51530395e-20f;  /* pi/2 2^-64 */
+    return out;
+}
+
+HD float fm_reduce_large(float x, int *quadrant)
+{
+    fm_turn out = fm_turn_large(x);
+    *quadrant = out.quadrant;
+    return out.rest;
 }
 
 /* x = quadrant pi/2 + r with |r| <= pi/4; x finite. The parts of pi/2 have

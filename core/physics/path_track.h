@@ -179,11 +179,16 @@ HD float path_excess(float drawn, float majorant)
     return hd_max(2.0f * drawn / majorant - 1.0f, 1.0f);
 }
 
-HD_APART float path_exceed(path_state *p, rgb drawn, rgb majorant)
+HD_APART rgb path_excesses(rgb drawn, rgb majorant)
 {
-    rgb k = rgb_make(path_excess(drawn.r, majorant.r),
-                     path_excess(drawn.g, majorant.g),
-                     path_excess(drawn.b, majorant.b));
+    return rgb_make(path_excess(drawn.r, majorant.r),
+                    path_excess(drawn.g, majorant.g),
+                    path_excess(drawn.b, majorant.b));
+}
+
+HD float path_exceed(path_state *p, rgb drawn, rgb majorant)
+{
+    rgb k = path_excesses(drawn, majorant);
     float driver = rgb_get(k, p->driver);
     p->beta = rgb_scale(p->beta, driver);
     p->r_u = rgb_mul(p->r_u, rgb_make(driver / k.r, driver / k.g,

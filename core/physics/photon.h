@@ -6,13 +6,43 @@
 
 /* ---- flights ----------------------------------------------------------- */
 
-/* Lays the flight up to t, with that power. */
-HD void photon_lay(const flat_scene *s, photon_state *p, photon_counters *c,
-                   float t, rgb beta, rgb r_u)
+/* A flight between two events or surfaces, in steps: on a GPU the threads of a
+ * warp take them side by side, however many each flight has. */
+typedef struct {
+    ray_hit hit;            /* the next surface                            */
+    media_walk walk;
+    rgb majorant;           /* of the current piece                        */
+    float t, tau;           /* how far it is; depth left to the next
+                               tentative collision                         */
+    double power;           /* at its start, as the books tell it          */
+    int32_t event;          /* PATH_*: how it ends                         */
+    path_event at;
+    int32_t flies;          /* it has not ended                            */
+    int32_t lays;           /* a stretch of it is not laid yet             */
+    radiance_walk stretch;
+    rgb lays_power;
+} photon_flight;
+
+/* Lays a cell of the stretch. */
+HD void photon_lay(const flat_scene *s, const photon_state *p,
+                   photon_counters *c, photon_flight *f)
 {
-    if (p->stored && c->tally.sum && !s->field.ball && t > p->laid)
-        radiance_lay(s, &c->tally, p->path.o, p->path.d, p->laid, t,
-                     rgb_scale(beta, 1.0f / rgb_mean(r_u)));
+    f->lays = radiance_lay(s, &c->tally, &f->stretch, p->path.o, p->path.d,
+                           f->lays_power);
+}
+
+/* The flight is to be laid up to t, with that power. While a stretch is left
+ * to lay, no more than rounding can follow it. */
+HD void photon_leave(const flat_scene *s, photon_state *p,
+                     const photon_counters *c, photon_flight *f, float t,
+                     rgb beta, rgb r_u)
+{
+    bool laid = f->lays || !p->stored || !c->tally.sum || s->field.ball;
+    if (!laid && t > p->laid) {
+        f->lays_power = rgb_scale(beta, 1.0f / rgb_mean(r_u));
+        f->lays = radiance_begin(s, p->path.o, p->path.d, p->laid, t,
+                                 &f->stretch);
+    }
     p->laid = t;
 }
 
@@ -24,40 +54,35 @@ HD bool photon_gray(rgb c)
 /* Flies from t to t + step. Where the channels fly differently, the power
  * changes on the way: it is told at a point of it. */
 HD void photon_fly(const flat_scene *s, photon_state *p, photon_counters *c,
-                   rgb majorant, float t, float step)
+                   photon_flight *f, float step)
 {
-    if (!photon_gray(majorant)) {
-        rgb ratio = path_ratio(&p->path, majorant,
+    if (!photon_gray(f->majorant)) {
+        rgb ratio = path_ratio(&p->path, f->majorant,
                                step * rng_float(&p->path.random));
-        photon_lay(s, p, c, t + step, rgb_mul(p->path.beta, ratio),
-                   rgb_mul(p->path.r_u, ratio));
+        photon_leave(s, p, c, f, f->t + step, rgb_mul(p->path.beta, ratio),
+                     rgb_mul(p->path.r_u, ratio));
     }
-    path_fly(&p->path, majorant, step);
+    path_fly(&p->path, f->majorant, step);
 }
 
-/* A flight between two events or surfaces, in steps: on a GPU the threads of a
- * warp take them side by side, however many each flight has. */
-typedef struct {
-    bvh_ray ray;
-    ray_hit hit;            /* the next surface                            */
-    media_walk walk;
-    rgb majorant;           /* of the current piece                        */
-    float t, tau;           /* how far it is; depth left to the next
-                               tentative collision                         */
-    double power;           /* at its start, as the books tell it          */
-    int32_t event;          /* PATH_*: how it ends                         */
-    path_event at;
-} photon_flight;
+/* The flight ends where it was to, or did not begin. */
+HD void photon_passes(const flat_scene *s, photon_state *p,
+                      photon_counters *c, photon_flight *f)
+{
+    f->flies = 0;
+    photon_leave(s, p, c, f, f->hit.t, p->path.beta, p->path.r_u);
+}
 
-/* False: nothing is between it and its end. */
-HD bool photon_take_off(const flat_scene *s, photon_state *p,
+HD void photon_take_off(const flat_scene *s, photon_state *p,
                         photon_counters *c, photon_flight *f)
 {
     path_state *a = &p->path;
-    f->ray = bvh_ray_make(a->o, a->d);
-    f->hit = bvh_nearest(s, &f->ray, &a->after, s->far);
+    bvh_ray r = bvh_ray_make(a->o, a->d);
+    f->hit = bvh_nearest(s, &r, &a->after, s->far);
     f->event = PATH_THROUGH;
     f->power = photon_power(p);
+    f->flies = 1;
+    f->lays = 0;
     c->track.rays++;
     if (f->hit.shape < 0)
         container_leave_bounded(s, &a->inside);
@@ -65,16 +90,17 @@ HD bool photon_take_off(const flat_scene *s, photon_state *p,
     walk_begin(s, &f->walk, &a->inside, true, a->o, a->d, a->after.t,
                f->hit.t);
     c->track.overflow += f->walk.overflow;
-    if (f->walk.count == 0)
-        return false;
+    if (f->walk.count == 0) {
+        photon_passes(s, p, c, f);
+        return;
+    }
     f->tau = rng_optical_depth(&a->random);
     f->majorant = path_majorant(s, &f->walk, false);
     f->t = f->walk.t;
-    return true;
 }
 
-/* At a tentative collision; false: it is a real one. */
-HD bool photon_goes_on(const flat_scene *s, photon_state *p,
+/* A tentative collision. */
+HD void photon_collide(const flat_scene *s, photon_state *p,
                        photon_counters *c, photon_flight *f)
 {
     path_state *a = &p->path;
@@ -83,34 +109,36 @@ HD bool photon_goes_on(const flat_scene *s, photon_state *p,
     path_point_at(s, a, &f->walk, f->t, f->majorant, &at);
     rgb beta = a->beta, r_u = a->r_u;
     f->event = path_collide(a, &f->walk, &at, f->majorant, &which);
-    if (f->event != PATH_THROUGH || !photon_gray(at.all_t))
-        photon_lay(s, p, c, f->t, beta, r_u);
+    f->flies = f->event == PATH_THROUGH;
+    if (!f->flies || !photon_gray(at.all_t))
+        photon_leave(s, p, c, f, f->t, beta, r_u);
     f->at.t = f->t;
     if (f->event == PATH_SCATTERED)
         f->at.medium = walk_part(&f->walk, which)->medium;
-    return f->event == PATH_THROUGH;
 }
 
 /* Delta tracking as in path_track: to the next tentative collision or the end
- * of a piece. False: the flight has ended. */
-HD bool photon_step(const flat_scene *s, photon_state *p, photon_counters *c,
-                    photon_flight *f)
+ * of a piece. */
+HD void photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
+                     photon_flight *f)
 {
     float driver = rgb_get(f->majorant, p->path.driver);
     float left = driver * (f->walk.t_end - f->t);
     if (f->tau < left) {
-        photon_fly(s, p, c, f->majorant, f->t, f->tau / driver);
+        photon_fly(s, p, c, f, f->tau / driver);
         f->t += f->tau / driver;
         f->tau = rng_optical_depth(&p->path.random);
-        return photon_goes_on(s, p, c, f);
+        photon_collide(s, p, c, f);
+        return;
     }
-    photon_fly(s, p, c, f->majorant, f->t, f->walk.t_end - f->t);
+    photon_fly(s, p, c, f, f->walk.t_end - f->t);
     f->tau -= left;
-    if (!walk_next(s, &f->walk))
-        return false;
-    f->majorant = path_majorant(s, &f->walk, false);
-    f->t = f->walk.t;
-    return true;
+    if (walk_next(s, &f->walk)) {
+        f->majorant = path_majorant(s, &f->walk, false);
+        f->t = f->walk.t;
+    } else {
+        photon_passes(s, p, c, f);
+    }
 }
 
 /* ---- events ------------------------------------------------------------ */
@@ -265,10 +293,11 @@ HD bool photon_bounce(const flat_scene *s, photon_state *p,
 }
 
 HD bool photon_surface(const flat_scene *s, photon_state *p,
-                       photon_counters *c, const bvh_ray *r, const ray_hit *h)
+                       photon_counters *c, const ray_hit *h)
 {
     if (hit_material(s, h) >= 0) {
-        hit_point at = hit_resolve(s, r, h);
+        bvh_ray r = bvh_ray_make(p->path.o, p->path.d);
+        hit_point at = hit_resolve(s, &r, h);
         double before = photon_power(p);
         if (p->light >= 0 && (s->shapes[h->shape].flags & SHAPE_NO_SHADOW))
             at.pass = rgb_gray(1.0f);
@@ -291,8 +320,6 @@ HD bool photon_land(const flat_scene *s, photon_state *p, photon_counters *c,
                     const photon_flight *f)
 {
     c->books.media += f->power - photon_power(p);
-    if (f->event == PATH_THROUGH)
-        photon_lay(s, p, c, f->hit.t, p->path.beta, p->path.r_u);
     if (++p->events > PHOTON_EVENTS) {
         photon_end(p, &c->books.dropped);
         return false;
@@ -302,7 +329,7 @@ HD bool photon_land(const flat_scene *s, photon_state *p, photon_counters *c,
     if (f->event == PATH_ENDED)
         photon_end(p, &c->books.media);
     else if (f->hit.shape >= 0)
-        return photon_surface(s, p, c, &f->ray, &f->hit);
+        return photon_surface(s, p, c, &f->hit);
     else
         photon_end(p, &c->books.escaped);
     return false;
@@ -352,9 +379,12 @@ HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
         photon_flight f;
         bool alive = photon_begin(s, job, i, &p, c);
         while (alive) {
-            bool flies = photon_take_off(s, &p, c, &f);
-            while (flies)
-                flies = photon_step(s, &p, c, &f);
+            photon_take_off(s, &p, c, &f);
+            while (f.flies || f.lays)
+                if (f.lays)
+                    photon_lay(s, &p, c, &f);
+                else
+                    photon_track(s, &p, c, &f);
             alive = photon_land(s, &p, c, &f);
         }
     }

@@ -211,23 +211,19 @@ HD bool radiance_step(const flat_scene *s, radiance_walk *w)
     return y ? radiance_cross(s, w, 1) : radiance_cross(s, w, 0);
 }
 
-/* Lays the flight o + t d, t in [t0, t1], d of unit length, of a photon of
- * that power into the cells that it crosses. */
-HD void radiance_lay(const flat_scene *s, radiance_tally *t, vec3 o, vec3 d,
-                     float t0, float t1, rgb power)
+/* Lays what a walk crosses of its current cell, of a flight o + t d, d of unit
+ * length, of a photon of that power. False: that was the last. */
+HD bool radiance_lay(const flat_scene *s, radiance_tally *t, radiance_walk *w,
+                     vec3 o, vec3 d, rgb power)
 {
-    radiance_walk w;
-    if (!radiance_begin(s, o, d, t0, t1, &w))
-        return;
-    do {
-        float next = hd_min(w.next[0], hd_min(w.next[1], w.next[2]));
-        float stop = hd_min(next, w.end), length = stop - w.t;
-        int64_t cell = radiance_cell(s, w.cell[0], w.cell[1], w.cell[2]);
-        if (cell >= 0 && length > 0.0f)
-            radiance_deposit(s, t, cell, vec3_mad(o, w.t + 0.5f * length, d),
-                             d, rgb_scale(power, length / s->field.side));
-        w.t = hd_max(w.t, stop);
-    } while (w.t < w.end && radiance_step(s, &w));
+    float next = hd_min(w->next[0], hd_min(w->next[1], w->next[2]));
+    float stop = hd_min(next, w->end), length = stop - w->t;
+    int64_t cell = radiance_cell(s, w->cell[0], w->cell[1], w->cell[2]);
+    if (cell >= 0 && length > 0.0f)
+        radiance_deposit(s, t, cell, vec3_mad(o, w->t + 0.5f * length, d), d,
+                         rgb_scale(power, length / s->field.side));
+    w->t = hd_max(w->t, stop);
+    return w->t < w->end && radiance_step(s, w);
 }
 
 /* ---- reading ----------------------------------------------------------- */
