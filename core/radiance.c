@@ -1,8 +1,11 @@
 #include "core/radiance.h"
 #include <math.h>
 #include <stdlib.h>
+#include "core/physics/far.h"
 #include "core/physics/radiance.h"
 #include "core/physics/rng.h"
+#include "lib/memory.h"
+#include "lib/thread.h"
 
 /* Cells along the side of a cube as large as the media's box, at most: finer
  * ones would hold more noise than detail. */
@@ -181,6 +184,17 @@ static bool box_seen(const camera *c, const float lo[3], const float hi[3],
     return true;
 }
 
+/* Whether a part of the box lies before the plane at that depth. */
+static bool box_nearer(const camera *c, const float lo[3], const float hi[3],
+                       float depth)
+{
+    vec3 axis = vec3_normalize(c->direction);
+    vec3 near = vec3_make(axis.x < 0.0f ? hi[0] : lo[0],
+                          axis.y < 0.0f ? hi[1] : lo[1],
+                          axis.z < 0.0f ? hi[2] : lo[2]);
+    return vec3_dot(axis, vec3_sub(near, c->location)) <= depth;
+}
+
 /* With a margin of a cell, for what is interpolated. */
 static bool brick_scatters(const struct layout *l, const int32_t at[3])
 {
@@ -190,7 +204,10 @@ static bool brick_scatters(const struct layout *l, const int32_t at[3])
         lo[i] = f->origin[i] + (8.0f * (float)at[i] - 1.0f) * f->side;
         hi[i] = lo[i] + 10.0f * f->side;
     }
-    if (l->seen && !box_seen(&l->flat->view.view, lo, hi, 1.8f * f->side))
+    const camera *view = &l->flat->view.view;
+    float margin = 1.8f * f->side;
+    if (l->seen && !(box_seen(view, lo, hi, margin) &&
+                     box_nearer(view, lo, hi, f->far + margin)))
         return false;
     for (size_t i = 0; i < l->flat->media_count; i++)
         if (medium_in_box(l->flat, &l->flat->media[i], lo, hi))
@@ -330,6 +347,43 @@ static bool lay_out(struct layout *l, double side, uint64_t room,
     return true;
 }
 
+struct look {
+    const struct brume_options *options;
+    const flat_scene *scene;
+    float *far; /* of each row                             */
+};
+
+static void look_along_row(void *context, size_t index, int thread)
+{
+    (void)thread;
+    const struct look *job = context;
+    const struct brume_options *o = job->options;
+    for (int x = 0; x < o->width; x++)
+        job->far[index] = fmaxf(
+            job->far[index],
+            far_of_pixel(job->scene, o->width, o->height, x, (int)index));
+}
+
+/* The farthest that a pixel's middle sees of media. */
+static bool find_far(struct layout *l, const struct brume_options *options,
+                     struct brume_error *err)
+{
+    l->field.far = INFINITY;
+    if (!l->options->far_plane || !l->seen || l->snap || options->height < 1)
+        return true;
+    struct look job = {options, &l->flat->view, NULL};
+    job.far = memory_new((size_t)options->height, sizeof *job.far, err);
+    if (!job.far)
+        return false;
+    parallel_for(options->threads, (size_t)options->height, look_along_row,
+                 &job, NULL);
+    l->field.far = 0.0f;
+    for (int i = 0; i < options->height; i++)
+        l->field.far = fmaxf(l->field.far, job.far[i]);
+    free(job.far);
+    return true;
+}
+
 static struct layout begin(struct flat *flat,
                            const struct brume_options *options)
 {
@@ -357,7 +411,7 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
     double side = side_of(&l);
     if (l.snap)
         side = snap_side(flat, side);
-    return check_options(&l, err) &&
+    return check_options(&l, err) && find_far(&l, options, err) &&
            lay_out(&l, side, room_for(&l, options->memory), err);
 }
 
@@ -385,6 +439,7 @@ bool radiance_renew(struct flat *flat, const struct brume_options *options,
     rng random = rng_make(options->seed, options->frame, SHIFT_PASS, pass);
     for (int i = 0; i < 3; i++)
         l.shift[i] = (double)rng_float(&random) - 0.5;
+    l.field.far = flat->view.field.far;
     drop_field(flat);
     return lay_out(&l, side_of(&l) * pow(pass + 1.0, -0.25),
                    room_for(&l, options->memory), err);

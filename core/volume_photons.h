@@ -42,6 +42,7 @@ struct brume_photon_options {
     double radius;              /* of the ball, scene units; 0: two cells   */
     double spacing;             /* of cells, scene units; 0: chosen         */
     bool everywhere;            /* also cells that the eye cannot see       */
+    bool far_plane;             /* not those behind all that it can see     */
     /* Of films (brume_film.h): the field is a mean over so many frames, an odd
      * number, with these weights, the middle one the frame's own; 0 or 1: of
      * each frame alone. Their sum need not be 1. Adaptive: with weights
@@ -52,7 +53,7 @@ struct brume_photon_options {
 };
 #define BRUME_PHOTONS_INIT                                                    \
     {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
-     false, 0, false, {0}}
+     false, false, 0, false, {0}}
 
 /* Photons of a frame. Power in units of the mean photon's, means of the
  * channels: emitted + units = media + surfaces + walls + escaped + roulette

@@ -25,6 +25,8 @@ static const struct param photons_params[] = {
     PARAM_ROW("temporal", PARAM_INTEGER, 0, 1, BRUME_MAX_TAPS, 0,
               PHOTONS_TEMPORAL, struct volume_photons, temporal),
     PARAM_ANY("frustum", PARAM_SWITCH, 1, 0, struct volume_photons, frustum),
+    PARAM_ANY("far_plane", PARAM_SWITCH, 0, 0, struct volume_photons,
+              far_plane),
     {0}};
 
 static void open_photons(struct parser *parser, struct frame *frame)
@@ -55,6 +57,7 @@ static void set_photons(struct parser *parser, struct frame *frame,
     to->gather = BRUME_GATHER_BALL;
     to->single = BRUME_SINGLE_FIELD;
     to->emission = BRUME_EMISSION_PHOTONS;
+    to->far_plane = true;
 }
 
 static const enum build_kind in_globals[] = {BUILD_GLOBAL_SETTINGS,
@@ -168,5 +171,6 @@ void build_photons_finish(struct parser *parser)
     to->radius = said->radius;
     to->spacing = said->field_spacing;
     to->everywhere = !said->frustum;
+    to->far_plane = said->far_plane;
     set_taps(said, to);
 }

@@ -215,7 +215,7 @@ struct subsurface {
 struct volume_photons {
     double count, radius, field_spacing;
     int preset, gather, single, emission;
-    bool frustum;
+    bool frustum, far_plane;
     int temporal;               /* frames, 0: not said                     */
     int weights;                /* that were written out, 0: the published */
     int adaptive, reach;        /* 1: weights are found; over so many frames

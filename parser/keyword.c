@@ -158,6 +158,7 @@ const struct keyword keyword_table[] = {
     {"fade_power", TOK_WORD, KEYWORD_RESERVED},
     {"falloff", TOK_WORD, KEYWORD_RESERVED},
     {"falloff_angle", TOK_WORD, KEYWORD_RESERVED},
+    {"far_plane", TOK_WORD, KEYWORD_EXTENSION},
     {"fclose", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"field", TOK_WORD, KEYWORD_EXTENSION},
     {"field_spacing", TOK_WORD, KEYWORD_EXTENSION},

@@ -197,6 +197,7 @@ static struct brume_options row_options(const struct measure *m,
         o.photons.gather = BRUME_GATHER_BALL;
         o.photons.single = BRUME_SINGLE_FIELD;
         o.photons.emission = BRUME_EMISSION_PHOTONS;
+        o.photons.far_plane = true;
     }
     return o;
 }

@@ -256,6 +256,7 @@ struct brume_options reel_options(struct reel *reel, int number,
         r.photons.gather = BRUME_GATHER_BALL;
         r.photons.single = BRUME_SINGLE_FIELD;
         r.photons.emission = BRUME_EMISSION_PHOTONS;
+        r.photons.far_plane = true;
     }
     choose_filter(reel, &r.photons);
     r.progress = on_progress;

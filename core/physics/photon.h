@@ -172,9 +172,9 @@ HD void photon_store(const flat_scene *s, const photon_state *p,
 {
     if (!p->stored || !c->tally.sum || !s->field.ball)
         return;
-    c->stored++;
-    radiance_splat(s, &c->tally, at, d, phase, g,
-                   rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u)));
+    if (radiance_splat(s, &c->tally, at, d, phase, g,
+                       rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u))))
+        c->stored++;
 }
 
 HD bool photon_scatter(const flat_scene *s, photon_state *p,

@@ -119,10 +119,11 @@ HD void radiance_span(const radiance_lattice *f, int axis, float q, float r,
 
 /* Adds an event at p of a photon that came along d to the cells in whose ball
  * it lies: the sums of a gather over all photons there [Jensen and Christensen
- * 1998], without a list of photons. */
-HD void radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
+ * 1998], without a list of photons. False: it lies in none. */
+HD bool radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
                        int phase, float g, rgb power)
 {
+    bool stored = false;
     const radiance_lattice *f = &s->field;
     float r = f->radius / f->side, q[3];
     int lo[3], hi[3];
@@ -132,7 +133,7 @@ HD void radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
     }
     if (!(rgb_max(power) < RADIANCE_MOST && rgb_min(power) > -RADIANCE_MOST)) {
         t->clipped++;
-        return;
+        return false;
     }
     for (int z = lo[2]; z <= hi[2]; z++)
         for (int y = lo[1]; y <= hi[1]; y++)
@@ -142,10 +143,12 @@ HD void radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
                 int64_t cell = radiance_cell(s, x, y, z);
                 if (cell < 0 || !(vec3_dot(off, off) <= r * r))
                     continue;
+                stored = true;
                 vec3 eye = radiance_to_eye(s, vec3_mad(p, f->side, off));
                 radiance_add_rgb(t->sum + cell * f->numbers,
                     rgb_scale(power, phase_eval_between(phase, g, d, eye)));
             }
+    return stored;
 }
 
 /* A flight on its way through the lattice. */

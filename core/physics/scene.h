@@ -239,6 +239,7 @@ typedef struct {
                                eye, per length, by events within `radius`  */
     int32_t thick;          /* ... and per thickness, see ball_cell.h      */
     float radius;
+    float far;              /* none farther along the view; or infinite    */
     int32_t straight;       /* 1: only the eye's straight lines read it    */
     int32_t single;         /* 1: light straight from lights is in it      */
     int32_t births;         /* 1: emission of media too                    */

@@ -1,0 +1,242 @@
+/* Cells of the field that the eye can see, and photons that they gather,
+ * counted by brute force. */
+#include "tests/unit/truth.h"
+#include <stdlib.h>
+#include <string.h>
+#include "core/photons.h"
+#include "core/plan.h"
+#include "core/prepare.h"
+#include "core/radiance.h"
+
+enum { SIDE = 12, PIXELS = SIDE * SIDE };
+
+/* Where the deep box begins and ends, before the eye. */
+#define NEAR 5.0
+#define DEEP 20.0
+#define SIGMA 2.0
+
+/* A view into a box that goes on far behind what is opaque. */
+static brume_scene *deep_box(void)
+{
+    struct brume_globals g = BRUME_GLOBALS_INIT;
+    g.media_multiple = g.environment = true;
+    brume_scene *s = truth_scene(&g, NEAR, 0.15);
+    struct brume_medium m = truth_medium(0.2, SIGMA - 0.2, 0.3);
+    truth_fill(s, truth_box(3.0, 0.0, DEEP), &m);
+    struct brume_light l = BRUME_LIGHT_INIT;
+    l.location[0] = 8.0;
+    l.location[1] = 6.0;
+    l.location[2] = 2.0;
+    l.color[0] = l.color[1] = l.color[2] = 1.0;
+    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    return s;
+}
+
+static struct brume_options options(enum brume_gather gather, bool far)
+{
+    struct brume_options o = BRUME_OPTIONS_INIT;
+    o.integrator = BRUME_INTEGRATOR_PHOTON;
+    o.width = o.height = SIDE;
+    o.spp = 2;
+    o.photons.count = 20000;
+    o.photons.gather = gather;
+    o.photons.spacing = 0.2;
+    o.photons.far_plane = far;
+    return o;
+}
+
+static struct flat *lay_out(brume_scene *s, const struct brume_options *o)
+{
+    struct prepare job = {.scene = s, .threads = 1};
+    struct flat *f = prepare_scene(&job, truth_error());
+    assert_non_null(f);
+    assert_true(plan_layout(f, o, truth_error()));
+    return f;
+}
+
+/* The point's place in the picture, 1/2 being its edges, and its depth. */
+static void project(const camera *c, vec3 p, double out[3])
+{
+    vec3 v = vec3_sub(p, c->location);
+    double size = (double)vec3_dot(c->direction, c->direction);
+    double depth = (double)vec3_dot(v, c->direction) / size;
+    out[0] = (double)vec3_dot(v, c->right) /
+             ((double)vec3_dot(c->right, c->right) * depth);
+    out[1] = (double)vec3_dot(v, c->up) /
+             ((double)vec3_dot(c->up, c->up) * depth);
+    out[2] = depth * sqrt(size);
+}
+
+/* Whether some point of the brick, grown by `grow` cells, is seen before
+ * `far`; the picture grown by `wide` units to each side. */
+static bool brick_seen(const struct flat *f, const int at[3], double grow,
+                       double wide, double far)
+{
+    enum { POINTS = 24 };
+    const radiance_lattice *l = &f->view.field;
+    const camera *c = &f->view.view;
+    double side = (double)l->side, size = (double)vec3_length(c->direction);
+    for (int k = 0; k <= POINTS; k++)
+        for (int j = 0; j <= POINTS; j++)
+            for (int i = 0; i <= POINTS; i++) {
+                const int n[3] = {i, j, k};
+                double x[3], seen[3];
+                for (int a = 0; a < 3; a++)
+                    x[a] = (double)l->origin[a] +
+                           side * (8.0 * at[a] - grow +
+                                   (8.0 + 2.0 * grow) * n[a] / POINTS);
+                project(c, vec3_make((float)x[0], (float)x[1], (float)x[2]),
+                        seen);
+                if (!(seen[2] > -wide) || !(seen[2] < far + wide))
+                    continue;
+                /* A plane moved out by `wide`, at that depth. */
+                double edge = 0.5 +
+                              1.2 * wide * size /
+                                  (seen[2] * (double)vec3_length(c->right));
+                if (fabs(seen[0]) < edge && fabs(seen[1]) < edge)
+                    return true;
+            }
+    return false;
+}
+
+static double far_truth(const struct flat *f, double opacity_depth)
+{
+    return (NEAR + opacity_depth / SIGMA) * f->unit;
+}
+
+/* All that the eye sees is there, and no brick is that lies clear of the view
+ * by more than its margins. */
+static void check_bricks(const struct flat *f, double nearest, double farthest)
+{
+    const radiance_lattice *l = &f->view.field;
+    const double margin = 1.8 * (double)l->side;
+    int stored = 0, all = 0;
+    for (int z = 0; z < l->bricks[2]; z++)
+        for (int y = 0; y < l->bricks[1]; y++)
+            for (int x = 0; x < l->bricks[0]; x++) {
+                const int at[3] = {x, y, z};
+                bool there = radiance_cell(&f->view, 8 * x, 8 * y, 8 * z) >= 0;
+                if (brick_seen(f, at, 0.5, 0.0, nearest) && !there)
+                    fail_msg("brick %d %d %d is seen, and is not there", x, y,
+                             z);
+                if (!brick_seen(f, at, 1.0, margin, farthest) && there)
+                    fail_msg("brick %d %d %d is there, and out of sight", x, y,
+                             z);
+                stored += there;
+                all++;
+            }
+    assert_true(stored > 4 && stored < all);
+}
+
+static void photon_frustum__cells_are_those_in_view(void **state)
+{
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        brume_scene *s = deep_box();
+        struct brume_options o = options(BRUME_GATHER_TALLY, far != 0);
+        struct flat *f = lay_out(s, &o);
+        /* Told to a part of the stretch. */
+        if (far)
+            check_bricks(f, 0.97 * far_truth(f, 9.21),
+                         far_truth(f, 9.21) + DEEP / 20.0 * f->unit);
+        else
+            check_bricks(f, INFINITY, INFINITY);
+        flat_free(f);
+        brume_scene_free(s);
+    }
+}
+
+/* Whether an event at p lies in the ball of a cell that is there. */
+static bool gathered(const struct flat *f, vec3 p)
+{
+    const radiance_lattice *l = &f->view.field;
+    for (uint64_t b = 0; b < f->radiance_slots_count; b++)
+        for (int i = 0; f->radiance_slots[b] >= 0 && i < 512; i++) {
+            vec3 off = vec3_sub(radiance_middle(&f->view, b, i), p);
+            if (vec3_length(off) <= l->radius)
+                return true;
+        }
+    return false;
+}
+
+static void photon_frustum__photons_stored_are_those_gathered(void **state)
+{
+    (void)state;
+    enum { PHOTONS = 600 };
+    for (int far = 0; far < 2; far++) {
+        brume_scene *s = deep_box();
+        struct brume_options o = options(BRUME_GATHER_BALL, far != 0);
+        struct flat *f = lay_out(s, &o);
+        struct photons photons;
+        photon_counters c = {0};
+        uint64_t stored = 0, events = 0;
+        o.photons.count = PHOTONS;
+        assert_true(photons_plan(f, &o, 0, &photons, truth_error()));
+        c.tally.sum = calloc(f->radiance_count, sizeof(int64_t));
+        for (uint64_t i = 0; i < PHOTONS; i++) {
+            photon_state p;
+            photon_flight flight;
+            bool alive = photon_begin(&f->view, &photons.job, i, &p, &c);
+            while (alive) {
+                photon_take_off(&f->view, &p, &c, &flight);
+                while (flight.flies || flight.lays)
+                    if (flight.lays)
+                        photon_lay(&f->view, &p, &c, &flight);
+                    else
+                        photon_track(&f->view, &p, &c, &flight);
+                bool first = p.light >= 0;
+                alive = photon_land(&f->view, &p, &c, &flight);
+                /* First events of lights are theirs, not photons'. */
+                if (c.events > events && !first)
+                    stored += gathered(f, p.path.o);
+                events = c.events;
+            }
+        }
+        assert_true(stored > 50 && stored < events);
+        assert_int_equal(c.stored, stored);
+        free(c.tally.sum);
+        photons_release(&photons);
+        flat_free(f);
+        brume_scene_free(s);
+    }
+}
+
+/* What lies behind the far plane passes a ten-thousandth of its light, and
+ * this is no brighter than the picture. */
+static void photon_frustum__far_plane_changes_nothing_seen(void **state)
+{
+    (void)state;
+    for (int gather = 0; gather < 2; gather++) {
+        float first[3 * PIXELS];
+        uint64_t cells[2];
+        for (int far = 0; far < 2; far++) {
+            brume_scene *s = deep_box();
+            struct brume_frame f;
+            struct brume_options o = options((enum brume_gather)gather,
+                                             far != 0);
+            assert_true(brume_render(s, &o, &f, truth_error()));
+            cells[far] = f.stats.photons.cells;
+            float mean = 0.0f;
+            for (int i = 0; i < 3 * PIXELS; i++)
+                mean += f.radiance[i] / (3 * PIXELS);
+            for (int i = 0; far && i < 3 * PIXELS; i++)
+                if (!(fabsf(f.radiance[i] - first[i]) <= 3e-4f * mean))
+                    fail_msg("gather %d: %g for %g", gather,
+                             (double)f.radiance[i], (double)first[i]);
+            memcpy(first, f.radiance, sizeof first);
+            brume_frame_free(&f);
+            brume_scene_free(s);
+        }
+        assert_true(cells[1] < cells[0] / 2);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photon_frustum__cells_are_those_in_view),
+        cmocka_unit_test(photon_frustum__photons_stored_are_those_gathered),
+        cmocka_unit_test(photon_frustum__far_plane_changes_nothing_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
