@@ -187,7 +187,7 @@ fuzz:
 
 # The published scenes, so many seconds each: tests/bench/results/.
 BENCH_SECONDS ?= 60
-bench: $(B)/brume $(B)/tests/bench/grids
+bench: $(B)/brume $(B)/tests/bench/grids $(B)/tests/tools/compare
 	@B=$(B) tests/bench/bench.py --budget $(BENCH_SECONDS)
 
 # ---- house-keeping

@@ -2,18 +2,21 @@
 """The nine scenes that stand for those of Cha, Yi, Ihm 2010, beside its times.
 
     tests/bench/bench.py [--budget S] [--jobs N] [--threads N] [--scale F]
-                         [--out DIR] [NAME...]
+                         [--backend NAME] [--out DIR] [NAME...]
 
 Makes the grids in $B/bench, then measures each scene at its published size
 with `brume measure`, for S seconds each (60), N at a time (1). References are
-those of $B/bench/reference/NAME.exr where they are, and else their own. It
-leaves bench.json, the tables and plots of `measure` and a page of them in DIR
+those of $B/bench/reference/NAME.exr where they are, and else their own. Then
+it renders the integrator photon as it comes, and with the published choices
+and numbers of photons, each from two seeds, whose difference tells the noise.
+It leaves bench.json, the tables and plots of `measure` and a page of them in DIR
 (tests/bench/results). No number in them is typed by hand but the published.
 """
 import argparse
 import concurrent.futures
 import csv
 import json
+import math
 import os
 import platform
 import re
@@ -31,30 +34,33 @@ GOALS = [0.10, 0.03, 0.01]
 class Scene:
     """What is measured, and the paper's seconds for it."""
 
-    def __init__(self, name, file, size, published, what, *switches):
+    def __init__(self, name, file, size, published, photons, what, *switches):
         self.name, self.file, self.size = name, file, size
         self.published, self.what, self.switches = published, what, switches
+        self.photons = photons
 
 
 VGA = (640, 480)
 NONE = "Declare=Geometry=0"
+# Photons of tables 2, 3 and 4; table 1 tells none.
 SCENES = [
-    Scene("t1-cloud", "t1-cloud.pov", VGA, 5.82, "table 1, cloud", NONE),
-    Scene("t1-cloud-geometry", "t1-cloud.pov", VGA, 6.16,
+    Scene("t1-cloud", "t1-cloud.pov", VGA, 5.82, 100000, "table 1, cloud",
+          NONE),
+    Scene("t1-cloud-geometry", "t1-cloud.pov", VGA, 6.16, 100000,
           "table 1, cloud with 3,592 triangles"),
-    Scene("t1-fog", "t1-fog.pov", VGA, 2.36, "table 1, fog", NONE),
-    Scene("t1-fog-geometry", "t1-fog.pov", VGA, 10.11,
+    Scene("t1-fog", "t1-fog.pov", VGA, 2.36, 100000, "table 1, fog", NONE),
+    Scene("t1-fog-geometry", "t1-fog.pov", VGA, 10.11, 100000,
           "table 1, fog with 66,454 triangles"),
-    Scene("t2-flame1", "t2-flame1.pov", VGA, 6.20, "table 2, flame 1"),
-    Scene("t2-flame2", "t2-flame2.pov", VGA, 8.03, "table 2, flame 2"),
-    Scene("t2-flame3", "t2-flame3.pov", VGA, 3.61, "table 2, flame 3"),
-    Scene("t2-campfire", "t2-campfire.pov", (512, 512), 7.78,
+    Scene("t2-flame1", "t2-flame1.pov", VGA, 6.20, 39000, "table 2, flame 1"),
+    Scene("t2-flame2", "t2-flame2.pov", VGA, 8.03, 39000, "table 2, flame 2"),
+    Scene("t2-flame3", "t2-flame3.pov", VGA, 3.61, 23000, "table 2, flame 3"),
+    Scene("t2-campfire", "t2-campfire.pov", (512, 512), 7.78, 83000,
           "table 2, campfire"),
-    Scene("t2-explosion", "t2-explosion.pov", (600, 800), 26.15,
+    Scene("t2-explosion", "t2-explosion.pov", (600, 800), 26.15, 444000,
           "table 2, explosion"),
-    Scene("t3-flight", "t3-flight.pov", VGA, 17.19,
+    Scene("t3-flight", "t3-flight.pov", VGA, 17.19, 250000,
           "table 3, frame 200, all adaptive"),
-    Scene("t4-smoke", "t4-smoke.pov", VGA, 4.45,
+    Scene("t4-smoke", "t4-smoke.pov", VGA, 4.45, 100000,
           "table 4, frame 31, 100,000 photons, no filter"),
 ]
 
@@ -80,14 +86,20 @@ def size_of(scene, scale):
     return [max(8, round(side * scale)) for side in scene.size]
 
 
+def words_of(scene, options):
+    width, height = size_of(scene, options.scale)
+    words = [os.path.join(HERE, scene.file), "+L" + DATA, f"+W{width}",
+             f"+H{height}", "--backend", options.backend, *scene.switches]
+    if options.threads:
+        words += ["--threads", str(options.threads)]
+    return words
+
+
 def measure(scene, options):
     width, height = size_of(scene, options.scale)
     out = os.path.join(options.out, scene.name)
-    words = [BRUME, "measure", os.path.join(HERE, scene.file), "+L" + DATA,
-             f"+W{width}", f"+H{height}", "+O" + out, *scene.switches,
+    words = [BRUME, "measure", *words_of(scene, options), "+O" + out,
              "--budget", str(options.budget)]
-    if options.threads:
-        words += ["--threads", str(options.threads)]
     reference = os.path.join(DATA, "reference", scene.name + ".exr")
     if os.path.exists(reference):
         words += ["--reference", reference]
@@ -96,9 +108,59 @@ def measure(scene, options):
         sys.exit(f"{scene.name}: status {done.returncode}\n{done.stderr}")
     own = out + "-reference.exr"
     if os.path.exists(own):
-        os.replace(own, os.path.join(DATA, scene.name + "-own.exr"))
+        reference = os.path.join(DATA, scene.name + "-own.exr")
+        os.replace(own, reference)
+    result = read(scene, out + ".csv", (width, height), done.stdout)
+    noise = result["reference_noise"] or 0
+    result["photon"] = judge(scene, options, reference, noise,
+                             "--photons", "1000000", "--spp", "64")
+    result["paper"] = judge(scene, options, reference, noise, "--preset",
+                            "paper", "--photons", str(scene.photons), "--spp",
+                            "16")
     print(scene.name, "done", flush=True)
-    return read(scene, out + ".csv", (width, height), done.stdout)
+    return result
+
+
+# ---- photons as they come, and as published
+
+
+def compare(*words):
+    tool = os.path.join(B, "tests/tools/compare")
+    return float(subprocess.run([tool, *map(str, words)], check=True, text=True,
+                                capture_output=True).stdout)
+
+
+def judge(scene, options, reference, reference_noise, *switches):
+    """Two pictures of two seeds: their difference is sqrt(2) of their noise,
+    what they share of the difference from the reference is bias."""
+    width, height = size_of(scene, options.scale)
+    whole = (0, 0, width, height)
+    seconds, cpu, picture, mean = [], [], [], []
+    for seed in (1, 2):
+        path = os.path.join(DATA, f"{scene.name}-{seed}.exr")
+        stats = path + ".json"
+        run = subprocess.Popen([BRUME, *words_of(scene, options),
+                                "--integrator", "photon", *switches, "--seed",
+                                str(seed), "+O" + path, "--stats", stats])
+        _, status, used = os.wait4(run.pid, 0)
+        if status != 0:
+            sys.exit(f"{scene.name}: {' '.join(switches)}: status {status}")
+        with open(stats) as f:
+            frame = json.load(f)["frames"][0]
+        seconds.append(frame["seconds"]["prepare"] +
+                       frame["seconds"]["render"] +
+                       frame.get("photons", {}).get("seconds", 0))
+        cpu.append(used.ru_utime + used.ru_stime - frame["seconds"]["parse"])
+        picture.append(path)
+        mean.append(compare("mean", path, *whole))
+    noise = compare("relrmse", *picture) / 2 ** 0.5
+    square = sum(compare("relrmse", p, reference) ** 2 for p in picture) / 2
+    true = compare("mean", reference, *whole)
+    return {"switches": " ".join(switches), "seconds": min(seconds),
+            "cpu_seconds": min(cpu), "noise": noise,
+            "error": max(square - reference_noise ** 2, 0) ** 0.5,
+            "bias": max(square - reference_noise ** 2 - noise ** 2, 0) ** 0.5,
+            "mean_bias": sum(mean) / 2 / true - 1}
 
 
 def read(scene, path, size, printed):
@@ -110,7 +172,7 @@ def read(scene, path, size, printed):
     return {"name": scene.name, "what": scene.what, "size": size,
             "published_seconds": scene.published,
             "reference_noise": noise if noise != "" else None,
-            "reference": printed.split("\n", 1)[0],
+            "reference": printed.split("\n", 1)[0].replace(ROOT + "/", ""),
             "rows": rows, "advice": {f"{g} %": text for g, text in advice}}
 
 
@@ -145,6 +207,7 @@ def machine(options):
     return {"processor": name, "processors": os.cpu_count(),
             "threads": options.threads or os.cpu_count(),
             "jobs": options.jobs, "budget": options.budget,
+            "scale": options.scale, "load": os.getloadavg()[2],
             "version": subprocess.run([BRUME, "--version"], text=True,
                                       capture_output=True).stdout.strip()}
 
@@ -157,6 +220,57 @@ def cell(advice):
     switches = found.group(1).replace("--integrator ", "").replace("--", "")
     mark = "≈ " if found.group(3) else ""
     return f"{mark}{found.group(2)} s: {switches}"
+
+
+def seconds_for(rows, goal):
+    """Of one series: the quickest row as good, or along the slope of the last
+    rows, at most sixteen times as long where a bias may be left."""
+    good = [r["cpu_seconds"] for r in rows if r["error"] <= goal]
+    if good:
+        return min(good)
+    rows = [r for r in rows if r["error"] > 0][-3:]
+    if not rows:
+        return None
+    last, slope = rows[-1], -0.5 if rows[-1]["series"] == "path" else 0
+    if len(rows) > 1 and last["series"] != "path" and \
+            last["error"] < rows[0]["error"]:
+        slope = max(-0.5, math.log(last["error"] / rows[0]["error"]) /
+                    math.log(last["cpu_seconds"] / rows[0]["cpu_seconds"]))
+    if slope > -0.1:
+        return None
+    factor = (last["error"] / goal) ** (-1 / slope)
+    if last["series"].startswith("photon") and factor > 16:
+        return None
+    return factor * last["cpu_seconds"]
+
+
+def gain(result, goal):
+    """How much longer path takes than the best of the others."""
+    series = {}
+    for row in result["rows"]:
+        series.setdefault(row["series"], []).append(row)
+    seconds = {n: seconds_for(rows, goal) for n, rows in series.items()}
+    path = seconds.pop("path", None)
+    best = min((s, n) for n, s in seconds.items() if s) \
+        if any(seconds.values()) else None
+    if not path or not best:
+        return "none known"
+    return f"{path / best[0]:.2g}: {best[1]}"
+
+
+def photon_table(results):
+    yield ("| scene | paper, GTX 280 | photon, 1 M photons, 64 samples | error | bias "
+           "| mean off | preset paper, its photons, 16 samples | error | bias | mean off "
+           "| gain over path at 3 % | at 1 % |")
+    yield "|---" * 12 + "|"
+    for r in results:
+        cells = [r["name"], f"{r['published_seconds']} s"]
+        for kind in ("photon", "paper"):
+            k = r[kind]
+            cells += [f"{k['cpu_seconds']:.3g} s", percent(k["error"]),
+                      percent(k["bias"]), f"{100 * k['mean_bias']:+.2f} %"]
+        cells += [gain(r, 0.03), gain(r, 0.01)]
+        yield "| " + " | ".join(cells) + " |"
 
 
 def table(results):
@@ -181,16 +295,32 @@ def page(data):
     m, results = data["machine"], data["results"]
     yield "# The nine scenes"
     yield ""
+    scale = m["scale"]
     yield ("Made by `make bench`. Scenes that stand for those of Cha, Yi, Ihm "
-           "2010, at their published sizes; the paper's seconds are its "
-           "GPU's, and it tells no error. Ours: "
+           "2010, at " + ("their published sizes" if scale == 1 else
+                          f"{scale:g} of the width and height published, so "
+                          f"with {scale * scale:g} of the pixels and as many "
+                          "photons") +
+           "; the paper's seconds are its GPU's, and it tells no error. Ours: "
            f"{m['version']} on {m['threads']} threads of {m['processor']}, "
-           f"{m['jobs']} scenes at a time. "
+           f"{m['jobs']} scenes at a time, where {m['load']:.1f} threads "
+           "wanted to run. "
            "Errors are relRMSE against a reference, less its noise; "
            "times are of a whole picture, without reading the scene. "
            "≈: extrapolated.")
     yield ""
     yield from table(results)
+    yield ""
+    yield "## Photons"
+    yield ""
+    yield ("Two seeds of each. The error has the reference's noise taken off, "
+           "the bias that of the pictures too; it can't be told where it is "
+           "less than half of the reference's noise, in the last column above. "
+           "The mean is over all pixels. Seconds here are of the processor, all "
+           "threads together. The last columns: how many times as many of them "
+           "`path` takes for an error, and what takes the least.")
+    yield ""
+    yield from photon_table(results)
     for r in results:
         yield ""
         yield f"## {r['name']}"
@@ -215,6 +345,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("--scale", type=float, default=1)
+    parser.add_argument("--backend", default="auto")
     parser.add_argument("--out", default=os.path.join(HERE, "results"))
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
