@@ -156,7 +156,7 @@ static void progressive__converges_around_surfaces(void **state)
 static void progressive__converges_in_mixed_media(void **state)
 {
     (void)state;
-    check_slope(mixed_box(), "mixed", -0.28);
+    check_slope(mixed_box(), "mixed", -0.22);
 }
 
 /* Each pass has photons and cells of its own: its estimate of the error knows
