@@ -128,3 +128,11 @@ void photons_release(struct photons *photons)
     free(photons->sources);
     photons->sources = NULL;
 }
+
+void brume_photons_paper(struct brume_photon_options *options)
+{
+    options->gather = BRUME_GATHER_BALL;
+    options->single = BRUME_SINGLE_FIELD;
+    options->emission = BRUME_EMISSION_PHOTONS;
+    options->far_plane = true;
+}

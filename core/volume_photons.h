@@ -55,6 +55,10 @@ struct brume_photon_options {
     {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
      false, false, 0, false, {0}}
 
+/* `preset paper`: the published choices of each stage (Cha, Yi and Ihm 2010);
+ * counts, sizes and filters stay. */
+BRUME_API void brume_photons_paper(struct brume_photon_options *options);
+
 /* Photons of a frame. Power in units of the mean photon's, means of the
  * channels: emitted + units = media + surfaces + walls + escaped + roulette
  * + dropped. */

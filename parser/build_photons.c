@@ -42,7 +42,7 @@ static void open_photons(struct parser *parser, struct frame *frame)
 static void set_photons(struct parser *parser, struct frame *frame,
                         const struct param *row, struct location at)
 {
-    struct brume_photon_options published;
+    struct brume_photon_options published = BRUME_PHOTONS_INIT;
     struct volume_photons *to = frame->node;
 
     if (row->given == PHOTONS_TEMPORAL) {
@@ -54,10 +54,11 @@ static void set_photons(struct parser *parser, struct frame *frame,
     }
     if (row->given != PHOTONS_PRESET)
         return;
-    to->gather = BRUME_GATHER_BALL;
-    to->single = BRUME_SINGLE_FIELD;
-    to->emission = BRUME_EMISSION_PHOTONS;
-    to->far_plane = true;
+    brume_photons_paper(&published);
+    to->gather = (int)published.gather;
+    to->single = (int)published.single;
+    to->emission = (int)published.emission;
+    to->far_plane = published.far_plane;
 }
 
 static const enum build_kind in_globals[] = {BUILD_GLOBAL_SETTINGS,

@@ -1,5 +1,6 @@
 #include "parser/cache.h"
 #include "lib/memory.h"
+#include "lib/stamp.h"
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -65,15 +66,6 @@ void cache_end(struct parse_cache *cache)
         drop(cache, false);
 }
 
-static bool is_same(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino &&
-           a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec &&
-           a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
-           a->st_ctim.tv_sec == b->st_ctim.tv_sec &&
-           a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
-}
-
 void *cache_find(struct parse_cache *cache, const char *path, const char *key)
 {
     struct stat now;
@@ -81,7 +73,7 @@ void *cache_find(struct parse_cache *cache, const char *path, const char *key)
         return NULL;
     for (struct entry *e = cache->entry; e; e = e->next)
         if (strcmp(e->path, path) == 0 && strcmp(e->key, key) == 0 &&
-            is_same(&e->was, &now)) {
+            stamp_is_same(&e->was, &now)) {
             e->used = true;
             return e->item;
         }

@@ -2,6 +2,7 @@
 #include "lib/hash.h"
 #include "lib/json.h"
 #include "lib/memory.h"
+#include "lib/stamp.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -30,15 +31,6 @@ struct manifest {
 
 /* ---- hashes of files ---------------------------------------------------- */
 
-static bool is_same(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino &&
-           a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec &&
-           a->st_mtim.tv_nsec == b->st_mtim.tv_nsec &&
-           a->st_ctim.tv_sec == b->st_ctim.tv_sec &&
-           a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
-}
-
 static struct known_file *find_file(struct manifest *m, const char *path)
 {
     for (size_t i = 0; i < m->files; i++)
@@ -60,7 +52,7 @@ static bool hash_of(struct manifest *m, const char *path, char out[HASH_DIGITS])
     if (stat(path, &now) != 0 || !S_ISREG(now.st_mode) ||
         !(file = find_file(m, path)))
         return false;
-    if (!is_same(&file->was, &now)) {
+    if (!stamp_is_same(&file->was, &now)) {
         memset(&file->was, 0, sizeof file->was);
         if (!hash_file(path, &file->hash, NULL))
             return false;

@@ -193,12 +193,8 @@ static struct brume_options row_options(const struct measure *m,
         o.photons.count = set->photons;
     if (set->spacing > 0.0)
         o.photons.spacing = set->spacing;
-    if (series->paper) {
-        o.photons.gather = BRUME_GATHER_BALL;
-        o.photons.single = BRUME_SINGLE_FIELD;
-        o.photons.emission = BRUME_EMISSION_PHOTONS;
-        o.photons.far_plane = true;
-    }
+    if (series->paper)
+        brume_photons_paper(&o.photons);
     return o;
 }
 

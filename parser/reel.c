@@ -252,12 +252,8 @@ struct brume_options reel_options(struct reel *reel, int number,
         r.photons.count = o->photons;
     if (o->field_spacing > 0)
         r.photons.spacing = o->field_spacing;
-    if (o->preset) {
-        r.photons.gather = BRUME_GATHER_BALL;
-        r.photons.single = BRUME_SINGLE_FIELD;
-        r.photons.emission = BRUME_EMISSION_PHOTONS;
-        r.photons.far_plane = true;
-    }
+    if (o->preset)
+        brume_photons_paper(&r.photons);
     choose_filter(reel, &r.photons);
     r.progress = on_progress;
     r.warn = reel_warn;

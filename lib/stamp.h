@@ -1,0 +1,9 @@
+/* stamp.h - whether a file is still the one that was read. */
+#ifndef LIB_STAMP_H
+#define LIB_STAMP_H
+#include <stdbool.h>
+#include <sys/stat.h>
+
+/* The same file, of the same size and times of change. */
+bool stamp_is_same(const struct stat *a, const struct stat *b);
+#endif
