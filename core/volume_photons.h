@@ -5,8 +5,8 @@
 /* Path: unbiased. Photon: photons are traced into a field of the light that is
  * scattered more than once, which the eye's rays then read; what is wrong with
  * it is only what the cells of the field blur. Progressive: a field of its own
- * for each sample of a pixel, with cells that shrink: what they blur goes away
- * with the samples. */
+ * for each sample of a pixel, with cells that shrink, and what they blur with
+ * them. */
 enum brume_integrator { BRUME_INTEGRATOR_PATH, BRUME_INTEGRATOR_PHOTON,
                         BRUME_INTEGRATOR_PROGRESSIVE };
 enum brume_backend { BRUME_BACKEND_AUTO, BRUME_BACKEND_CPU,
