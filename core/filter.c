@@ -66,47 +66,64 @@ struct mean {
     struct filter_view view[BRUME_MAX_TAPS];
     const double *weights;
     int taps;
+    struct filter_room *room; /* a thread's */
 };
 
-static void mean_of_cell(const struct mean *m, const int at[3], float *out)
+/* Adds a frame's cells, `weight` times, where they are there, and the weight
+ * to each cell's sum of weights. */
+static void add_frame(const struct filter_brick *b, int numbers, float weight,
+                      float *sum, float *weights)
 {
-    int numbers = m->flat->view.field.numbers;
-    double sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0;
-    float value[FILTER_MAX_NUMBERS];
-    for (int k = 0; k < m->taps; k++) {
-        if (!filter_view_cell(&m->view[k], at, value))
-            continue;
-        weights += m->weights[k];
-        for (int i = 0; i < numbers; i++)
-            sum[i] += m->weights[k] * (double)value[i];
+    if (!b->there) {
+        for (int i = 0; i < FILTER_CELLS; i++)
+            weights[i] += weight;
+        for (int i = 0; i < FILTER_CELLS * numbers; i++)
+            sum[i] += weight * b->cells[i];
+        return;
     }
-    for (int i = 0; weights > 0.0 && i < numbers; i++)
-        out[i] = (float)(sum[i] / weights);
+    for (int i = 0; i < FILTER_CELLS; i++) {
+        float w = weight * b->there[i];
+        weights[i] += w;
+        for (int k = i * numbers; k < (i + 1) * numbers; k++)
+            sum[k] += w * b->cells[k];
+    }
 }
 
 static void mean_of_brick(void *context, size_t index, int thread)
 {
-    (void)thread;
     const struct mean *m = context;
     const radiance_lattice *f = &m->flat->view.field;
     int32_t slot = m->flat->radiance_slots[index];
+    float sum[FILTER_CELLS * FILTER_MAX_NUMBERS];
+    float weights[FILTER_CELLS] = {0};
+    struct filter_brick brick;
     int corner[3];
     if (slot < 0)
         return;
     filter_corner(f, index, corner);
-    float *out = m->flat->radiance + (size_t)slot * 512 * (size_t)f->numbers;
-    for (int i = 0; i < 512; i++, out += f->numbers) {
-        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
-                     corner[2] + (i >> 6)};
-        mean_of_cell(m, at, out);
-    }
+    memset(sum, 0, FILTER_CELLS * (size_t)f->numbers * sizeof *sum);
+    for (int k = 0; k < m->taps; k++)
+        if (filter_view_brick(&m->view[k], corner, &m->room[thread], &brick))
+            add_frame(&brick, f->numbers, (float)m->weights[k], sum, weights);
+    float *out = m->flat->radiance +
+                 (size_t)slot * FILTER_CELLS * (size_t)f->numbers;
+    for (int i = 0; i < FILTER_CELLS; i++)
+        for (int k = i * f->numbers; k < (i + 1) * f->numbers; k++)
+            out[k] = weights[i] > 0.0f ? sum[k] / weights[i] : out[k];
 }
 
-void filter_mean(struct flat *flat, const struct filter_field *const *fields,
-                 const double *weights, int reach, int threads)
+bool filter_mean(struct flat *flat, const struct filter_field *const *fields,
+                 const double *weights, int reach, int threads,
+                 struct brume_error *err)
 {
     struct mean m = {flat, .weights = weights, .taps = 2 * reach + 1};
     for (int k = 0; k < m.taps; k++)
         filter_view_init(&m.view[k], flat, fields[k]);
+    threads = threads > 0 ? threads : thread_processors();
+    m.room = memory_new((size_t)threads, sizeof *m.room, err);
+    if (!m.room)
+        return false;
     parallel_for(threads, flat->radiance_slots_count, mean_of_brick, &m, NULL);
+    free(m.room);
+    return true;
 }

@@ -27,12 +27,13 @@ uint64_t filter_bytes(const struct filter_field *field);
 
 /* Fills the field of a frame with the weighted mean of those of 2 reach + 1
  * frames, NULL where there is none. Weights are made to sum to 1 over those
- * that have a cell where one is wanted. */
-void filter_mean(struct flat *flat, const struct filter_field *const *fields,
-                 const double *weights, int reach, int threads);
+ * that have a cell where one is wanted. False: no memory. */
+bool filter_mean(struct flat *flat, const struct filter_field *const *fields,
+                 const double *weights, int reach, int threads,
+                 struct brume_error *err);
 
-/* The same with weights of its own for each cell, see filter_adapt.c. False:
- * no memory. */
+/* The same with weights of its own for each cell, see filter_adapt.c; the
+ * frame's own field is in the middle. */
 bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
                   int reach, int threads, struct brume_error *err);
 #endif

@@ -1,7 +1,7 @@
-/* A mean over frames with weights of its own for each cell.
+/* A mean over frames with weights of its own for each block of 2^3 cells.
  *
- * How far a neighbour in time differs is judged over the cell's surroundings,
- * 5^3 cells: what is above the noise there is change. The frames at the same
+ * How far a neighbour in time differs is judged over the block's surroundings,
+ * 6^3 cells: what is above the noise there is change. The frames at the same
  * distance before and after count as one, their mean, since what moves evenly
  * cancels in it; where that differs more than they do singly, as at a cut,
  * they count singly. Weights then make the sum of squared change and variance
@@ -10,330 +10,358 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "core/filter.h"
-#include "core/filter_view.h"
+#include "core/filter_judge.h"
 #include "lib/memory.h"
 #include "lib/thread.h"
 
-/* What a squared difference may be, over what its noise gives: that of a box
- * is known to a fifth or so, and changes that are not there would cost more
- * than those that are overlooked. The square of a box's mean difference may be
- * so many times that of independent cells, which neighbours are not. */
-#define MARGIN 1.2
-#define MARGIN_OF_MEAN 10.0
+/* What a squared difference may be, over what its noise gives: that of the
+ * surroundings is known to a fifth or so, and changes that are not there would
+ * cost more than those that are overlooked. The square of a mean difference
+ * may be so many times that of independent cells, which neighbours are not. */
+#define MARGIN 1.2f
+#define MARGIN_OF_MEAN 10.0f
 
-enum { PAD = 2, BOX = 2 * PAD + 1, EDGE = 8 + 2 * PAD };
-enum { AROUND = EDGE * EDGE * EDGE, INSIDE = 512, MIDDLE = BRUME_MAX_REACH };
-
-/* What is known of a brick and its surroundings, for one thread. */
-struct patch {
-    float value[BRUME_MAX_TAPS][3][AROUND];
-    float there[BRUME_MAX_TAPS][AROUND];  /* 1, or 0: no cell           */
-    float mean[3][INSIDE], cells[INSIDE]; /* of the middle frame         */
-    /* Of the pair at each distance, then of the frame before and after: the
-     * squared difference from the middle frame's, a cell's part. */
-    float differ[BRUME_MAX_REACH][3][INSIDE];
-    /* By how much the frame before and after is darker, by channels. */
-    float shift[BRUME_MAX_REACH][2][3][INSIDE];
-    float work[AROUND], more[AROUND];
-};
+enum { NUMBERS = sizeof(struct filter_stats) / sizeof(float) };
+enum { MIDDLE = FILTER_MIDDLE, OTHERS = FILTER_OTHERS };
 
 struct adapt {
-    struct flat *flat;
-    struct filter_view view[BRUME_MAX_TAPS];
-    double noise[BRUME_MAX_TAPS];
-    int reach, primary;
-    struct patch *patch;
+    struct filter_judge judge;
+    float noise[BRUME_MAX_TAPS];
+    struct desk {
+        struct filter_stats near[FILTER_BLOCKS];
+        struct filter_stats plane[24];
+        float weight[BRUME_MAX_TAPS][FILTER_BLOCKS];
+        struct filter_room room;
+    } *desk; /* a thread's */
 };
 
-/* ---- patches ------------------------------------------------------------ */
+/* ---- surroundings ------------------------------------------------------- */
 
-static void load_frame(const struct adapt *a, struct patch *p, int k,
-                       const int corner[3])
+static void add(struct filter_stats *sum, const struct filter_stats *more)
 {
-    const struct filter_view *v = &a->view[k];
-    float cell[FILTER_MAX_NUMBERS];
-    int i = 0;
-    for (int z = -PAD; z < 8 + PAD; z++)
-        for (int y = -PAD; y < 8 + PAD; y++)
-            for (int x = -PAD; x < 8 + PAD; x++, i++) {
-                int at[3] = {corner[0] + x, corner[1] + y, corner[2] + z};
-                bool there = filter_view_cell(v, at, cell);
-                p->there[k][i] = there;
-                for (int c = 0; c < 3; c++)
-                    p->value[k][c][i] = there ? cell[a->primary + c] : 0.0f;
-            }
+    float *restrict a = sum->shift[0];
+    const float *restrict b = more->shift[0];
+    for (int i = 0; i < NUMBERS; i++)
+        a[i] += b[i];
 }
 
-/* Sums over the box around each inner cell: along z, y, then x. */
-static void box_sums(struct patch *p, const float *in, float *out)
+/* The blocks of the bricks around one, itself in the middle; NULL: none. */
+static void find_around(const struct adapt *a, const int at[3],
+                        const struct filter_stats *around[27])
 {
-    enum { ROW = EDGE, PLANE = EDGE * EDGE };
-    for (int z = 0; z < 8; z++)
-        for (int i = 0; i < PLANE; i++) {
-            float sum = 0.0f;
-            for (int k = 0; k < BOX; k++)
-                sum += in[(z + k) * PLANE + i];
-            p->work[z * PLANE + i] = sum;
-        }
-    for (int z = 0; z < 8; z++)
-        for (int y = 0; y < 8; y++)
-            for (int x = 0; x < EDGE; x++) {
-                float sum = 0.0f;
-                for (int k = 0; k < BOX; k++)
-                    sum += p->work[z * PLANE + (y + k) * ROW + x];
-                p->more[(z * 8 + y) * EDGE + x] = sum;
-            }
-    for (int i = 0; i < 64; i++)
-        for (int x = 0; x < 8; x++) {
-            float sum = 0.0f;
-            for (int k = 0; k < BOX; k++)
-                sum += p->more[i * EDGE + x + k];
-            out[i * 8 + x] = sum;
-        }
-}
-
-static void find_means(struct patch *p)
-{
-    for (int c = 0; c < 3; c++)
-        box_sums(p, p->value[MIDDLE][c], p->mean[c]);
-    box_sums(p, p->there[MIDDLE], p->cells);
-}
-
-static void find_shift(struct patch *p, int m, int j, float *sum)
-{
-    int k = j ? MIDDLE + m : MIDDLE - m;
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < AROUND; i++)
-            sum[i] = p->there[k][i] * p->there[MIDDLE][i] *
-                     (p->value[MIDDLE][c][i] - p->value[k][c][i]);
-        box_sums(p, sum, p->shift[m - 1][j][c]);
+    const struct flat *flat = a->judge.flat;
+    const int32_t *n = flat->view.field.bricks;
+    for (int i = 0; i < 27; i++) {
+        int x = at[0] + i % 3 - 1, y = at[1] + i / 3 % 3 - 1,
+            z = at[2] + i / 9 - 1;
+        bool in = x >= 0 && y >= 0 && z >= 0 && x < n[0] && y < n[1] &&
+                  z < n[2];
+        int32_t slot = in ? flat->radiance_slots[(size_t)x +
+                                                 (size_t)n[0] *
+                                                     ((size_t)y +
+                                                      (size_t)n[1] * (size_t)z)]
+                          : -1;
+        around[i] = slot < 0 ? NULL
+                             : a->judge.stats + (size_t)slot * FILTER_BLOCKS;
     }
 }
 
-/* Squared differences of the middle frame from what stands for it: the mean of
- * those before and after where both are there. */
-static void find_differences(struct patch *p, int m, float *sum)
+/* Block x, y, z of a brick, from -1 to 4 in each direction. */
+static const struct filter_stats *
+block_at(const struct filter_stats *const around[27], int x, int y, int z)
 {
-    const int before = MIDDLE - m, after = MIDDLE + m;
-    const int from[3] = {before, before, after};
-    const int to[3] = {after, before, after};
-    for (int j = 0; j < 3; j++) {
-        const float *u = p->there[from[j]], *v = p->there[to[j]];
-        for (int i = 0; i < AROUND; i++)
-            sum[i] = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            const float *x = p->value[from[j]][c], *y = p->value[to[j]][c];
-            const float *z = p->value[MIDDLE][c];
-            for (int i = 0; i < AROUND; i++) {
-                float d = z[i] - 0.5f * (x[i] + y[i]);
-                sum[i] += u[i] * v[i] * p->there[MIDDLE][i] * d * d;
-            }
+    int brick = ((z + 4) / 4 * 3 + (y + 4) / 4) * 3 + (x + 4) / 4;
+    const struct filter_stats *s = around[brick];
+    return s ? s + ((z & 3) * 4 + (y & 3)) * 4 + (x & 3) : NULL;
+}
+
+/* Sums over three blocks beside each other along x, of one layer. */
+static void sum_layer(struct filter_stats plane[24], int z,
+                      const struct filter_stats *const around[27])
+{
+    memset(plane, 0, 24 * sizeof *plane);
+    for (int i = 0; i < 24; i++)
+        for (int k = -1; k <= 1; k++) {
+            const struct filter_stats *s = block_at(around, (i & 3) + k,
+                                                    (i >> 2) - 1, z);
+            if (s)
+                add(&plane[i], s);
         }
-        box_sums(p, sum, p->differ[m - 1][j]);
+}
+
+/* Sums over each block and those around it: along x, y, then z. */
+static void sum_around(struct desk *d,
+                       const struct filter_stats *const around[27])
+{
+    for (int z = -1; z < 5; z++) {
+        sum_layer(d->plane, z, around);
+        for (int i = 0; i < 16; i++) {
+            struct filter_stats row = d->plane[i];
+            add(&row, &d->plane[i + 4]);
+            add(&row, &d->plane[i + 8]);
+            if (z < 3)
+                d->near[16 * (z + 1) + i] = row;
+            for (int k = z > 0 ? z - 1 : 0; k <= z && k < 4; k++)
+                add(&d->near[16 * k + i], &row);
+        }
     }
 }
 
 /* ---- weights ------------------------------------------------------------ */
 
-/* An estimate of the middle frame: its variance, and how far it is off. */
+/* Estimates of the middle frame: their variance, and how far they are off. */
 struct estimate {
-    double variance, change;
+    float variance, change;
     int from, to; /* frames that it is the mean of               */
 };
 
 /* A frame's variance over its noise, of all channels together, where these are
- * their sums over the box. */
-static double level_of(const double sums[3], double cells)
+ * their means. */
+static float level_of(const float mean[3])
 {
-    double square = 0.0, sum = 0.0;
+    float square = 0.0f, sum = 0.0f;
     for (int c = 0; c < 3; c++) {
-        double mean = fmax(sums[c] / cells, 0.0);
-        square += mean * mean;
-        sum += mean;
+        float x = mean[c] > 0.0f ? mean[c] : 0.0f;
+        square += x * x;
+        sum += x;
     }
-    return sum > 0.0 ? 3.0 * square / sum : 0.0;
+    return sum > 0.0f ? 3.0f * square / sum : 0.0f;
 }
 
-/* How far the mean over the box changed, squared, beyond what noise does: j 0
- * the pair's mean, 1 the frame before, 2 the one after. */
-static double mean_change(const struct patch *p, int i, int m, int j,
-                          double variance)
+/* How far the means changed, squared. */
+static void find_moves(const struct filter_stats *s, float move[OTHERS])
 {
-    double cells = (double)p->cells[i], square = 0.0;
-    for (int c = 0; c < 3; c++) {
-        double before = (double)p->shift[m - 1][0][c][i];
-        double after = (double)p->shift[m - 1][1][c][i];
-        double d = j == 0 ? 0.5 * (before + after) : j == 1 ? before : after;
-        square += d * d / (cells * cells);
+    for (int i = 0; i < OTHERS; i++) {
+        float n = s->count[i] > 0.0f ? s->count[i] : 1.0f;
+        float r = s->shift[0][i] / n, g = s->shift[1][i] / n,
+              b = s->shift[2][i] / n;
+        move[i] = r * r + g * g + b * b;
     }
-    return fmax(square - MARGIN_OF_MEAN * variance / cells, 0.0);
+}
+
+static float above(float square, float variance, float count)
+{
+    float x = square - MARGIN_OF_MEAN * variance / count;
+    return x > 0.0f ? x : 0.0f;
 }
 
 /* The level by the mean of those frames that are as bright as the middle one;
  * `level`, of all of them, is a first guess of it. */
-static double pool(const struct adapt *a, const struct patch *p, int i,
-                   double level, bool all)
+static float pool(const struct adapt *a, const struct filter_stats *s,
+                  const float move[OTHERS], float level, bool all)
 {
-    double sums[3], shift[3] = {0}, count = 1.0;
-    for (int m = 1; m <= a->reach; m++)
-        for (int j = 1; j <= 2; j++) {
-            int k = j == 1 ? MIDDLE - m : MIDDLE + m;
-            double variance = (a->noise[MIDDLE] + a->noise[k]) * level;
-            if (!a->view[k].field ||
-                (!all && mean_change(p, i, m, j, variance) > 0.0))
-                continue;
-            count += 1.0;
-            for (int c = 0; c < 3; c++)
-                shift[c] += (double)p->shift[m - 1][j - 1][c][i];
-        }
+    float mean[3], shift[3] = {0}, count = 1.0f;
+    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+        int i = filter_other(k);
+        if (k == MIDDLE || !(s->count[i] > 0.0f))
+            continue;
+        float variance = (a->noise[MIDDLE] + a->noise[k]) * level;
+        if (!all && above(move[i], variance, s->count[i]) > 0.0f)
+            continue;
+        count += 1.0f;
+        for (int c = 0; c < 3; c++)
+            shift[c] += s->shift[c][i] / s->count[i];
+    }
     for (int c = 0; c < 3; c++)
-        sums[c] = (double)p->mean[c][i] - shift[c] / count;
-    return level_of(sums, (double)p->cells[i]);
+        mean[c] = s->mean[c] / s->cells - shift[c] / count;
+    return level_of(mean);
 }
 
-static double find_level(const struct adapt *a, const struct patch *p, int i)
+static float larger(float a, float b)
 {
-    return pool(a, p, i, pool(a, p, i, 0.0, true), false);
+    return a > b ? a : b;
 }
 
-static struct estimate judge(const struct adapt *a, const struct patch *p,
-                             int i, int m, int j, double level)
+/* Of a single frame. */
+static struct estimate judge_one(const struct adapt *a,
+                                 const struct filter_stats *s,
+                                 const float move[OTHERS], int k, float level)
 {
-    struct estimate e = {.from = j == 2 ? MIDDLE + m : MIDDLE - m,
-                         .to = j == 1 ? MIDDLE - m : MIDDLE + m};
-    double own = a->noise[MIDDLE] * level;
-    double x = a->noise[e.from] * level, y = a->noise[e.to] * level;
-    e.variance = e.from == e.to ? x : 0.25 * (x + y);
-    double differ = (double)p->differ[m - 1][j][i] / (double)p->cells[i];
-    double change = fmax(differ - MARGIN * (own + e.variance),
-                         mean_change(p, i, m, j, own + e.variance));
-    e.change = sqrt(fmax(change, 0.0));
+    int i = filter_other(k);
+    struct estimate e = {.variance = a->noise[k] * level, .from = k, .to = k};
+    float own = a->noise[MIDDLE] * level, both = own + e.variance;
+    float change = s->differ[i] / s->count[i] - MARGIN * both;
+    e.change = sqrtf(larger(change, above(move[i], both, s->count[i])));
     return e;
 }
 
-static double precision(const struct estimate *e)
+/* Of the mean of those at distance m. */
+static struct estimate judge_two(const struct adapt *a,
+                                 const struct filter_stats *s, int m,
+                                 float level)
 {
-    return 1.0 / (e->variance + e->change * e->change);
+    struct estimate e = {.from = MIDDLE - m, .to = MIDDLE + m};
+    int i = filter_other(e.from), j = filter_other(e.to);
+    float own = a->noise[MIDDLE] * level, square = 0.0f;
+    e.variance = 0.25f * (a->noise[e.from] + a->noise[e.to]) * level;
+    float both = own + e.variance, count = s->pairs[m - 1];
+    for (int c = 0; c < 3; c++) {
+        float d = 0.5f * (s->shift[c][i] / s->count[i] +
+                          s->shift[c][j] / s->count[j]);
+        square += d * d;
+    }
+    float change = s->pair[m - 1] / count - MARGIN * both;
+    e.change = sqrtf(larger(change, above(square, both, count)));
+    return e;
 }
 
-static bool is_there(const struct patch *p, int k, int i)
+static float precision(const struct estimate *e)
 {
-    int x = i & 7, y = i >> 3 & 7, z = i >> 6;
-    return p->there[k][((z + PAD) * EDGE + y + PAD) * EDGE + x + PAD] > 0.0f;
+    return 1.0f / (e->variance + e->change * e->change);
 }
 
-/* Those of one distance: the pair's, or one or two single frames'. */
-static int list_estimates(const struct adapt *a, const struct patch *p, int i,
-                          int m, double level, struct estimate *out)
+/* Those of one distance: the pair's, or one or two single frames'. `own` are
+ * the block's alone. */
+static int list_estimates(const struct adapt *a, const struct filter_stats *s,
+                          const struct filter_stats *own,
+                          const float move[OTHERS], int m, float level,
+                          struct estimate *out)
 {
-    bool before = is_there(p, MIDDLE - m, i),
-         after = is_there(p, MIDDLE + m, i);
     int count = 0;
-    if (before)
-        out[count++] = judge(a, p, i, m, 1, level);
-    if (after)
-        out[count++] = judge(a, p, i, m, 2, level);
+    for (int k = MIDDLE - m; k <= MIDDLE + m; k += 2 * m)
+        if (own->count[filter_other(k)] > 0.0f)
+            out[count++] = judge_one(a, s, move, k, level);
     if (count < 2)
         return count;
-    struct estimate pair = judge(a, p, i, m, 0, level);
+    struct estimate pair = judge_two(a, s, m, level);
     if (precision(&pair) < precision(&out[0]) + precision(&out[1]))
         return 2;
     out[0] = pair;
     return 1;
 }
 
-/* Fills the weights of all frames for one cell. */
-static void find_weights(const struct adapt *a, const struct patch *p, int i,
-                         double weight[BRUME_MAX_TAPS])
+/* What makes squared change and variance least, of the middle frame, of
+ * variance `own`, and these. */
+static void weigh(const struct estimate *e, int count, float own,
+                  float weight[BRUME_MAX_TAPS])
 {
-    struct estimate e[BRUME_MAX_TAPS];
-    double variance = find_level(a, p, i), sum = 0.0, square = 0.0;
-    int count = 1;
-    for (int k = 0; k < BRUME_MAX_TAPS; k++)
-        weight[k] = 0.0;
-    weight[MIDDLE] = 1.0;
-    if (!(variance > 0.0))
+    float sum = 0.0f, square = 0.0f;
+    for (int i = 0; i < count; i++) {
+        sum += e[i].change / e[i].variance;
+        square += e[i].change * e[i].change / e[i].variance;
+    }
+    float slope = sum / (1.0f + square);
+    weight[MIDDLE] = 1.0f / own;
+    for (int i = 0; i < count; i++) {
+        float w = larger(1.0f - e[i].change * slope, 0.0f) / e[i].variance;
+        weight[e[i].from] += 0.5f * w;
+        weight[e[i].to] += 0.5f * w;
+    }
+}
+
+/* The weights of all frames for one block, of sum 1. */
+static void find_weights(const struct adapt *a, const struct filter_stats *s,
+                         const struct filter_stats *own,
+                         float weight[BRUME_MAX_TAPS])
+{
+    struct estimate e[OTHERS];
+    float move[OTHERS], sum = 0.0f;
+    int count = 0;
+    memset(weight, 0, BRUME_MAX_TAPS * sizeof *weight);
+    find_moves(s, move);
+    float level = pool(a, s, move, pool(a, s, move, 0.0f, true), false);
+    if (!(level > 0.0f) || !(a->noise[MIDDLE] > 0.0f)) {
+        weight[MIDDLE] = 1.0f;
         return;
-    for (int m = 1; m <= a->reach; m++)
-        count += list_estimates(a, p, i, m, variance, e + count);
-    for (int k = 1; k < count; k++) {
-        sum += e[k].change / e[k].variance;
-        square += e[k].change * e[k].change / e[k].variance;
     }
-    double slope = sum / (1.0 + square);
-    weight[MIDDLE] = 1.0 / (a->noise[MIDDLE] * variance);
-    for (int k = 1; k < count; k++) {
-        double w = fmax(1.0 - e[k].change * slope, 0.0) / e[k].variance;
-        weight[e[k].from] += 0.5 * w;
-        weight[e[k].to] += 0.5 * w;
-    }
+    for (int m = 1; m <= a->judge.reach; m++)
+        count += list_estimates(a, s, own, move, m, level, e + count);
+    weigh(e, count, a->noise[MIDDLE] * level, weight);
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        sum += weight[k];
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        weight[k] /= sum;
 }
 
 /* ---- bricks ------------------------------------------------------------- */
 
-static void mix_cell(const struct adapt *a, const int at[3],
-                     const double weight[BRUME_MAX_TAPS], float *out)
+/* Adds a frame's cells times the weights of their blocks. */
+static void mix_frame(const float *restrict cells, int numbers,
+                      const float weight[FILTER_BLOCKS], float *restrict out)
 {
-    int numbers = a->flat->view.field.numbers;
-    double sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0;
-    float value[FILTER_MAX_NUMBERS];
-    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
-        if (!(weight[k] > 0.0) || !filter_view_cell(&a->view[k], at, value))
-            continue;
-        weights += weight[k];
-        for (int i = 0; i < numbers; i++)
-            sum[i] += weight[k] * (double)value[i];
+    float row[8 * FILTER_MAX_NUMBERS];
+    int size = 8 * numbers;
+    for (int block = 0; block < FILTER_BLOCKS; block += 4) {
+        for (int i = 0; i < size; i++)
+            row[i] = weight[block + i / (2 * numbers)];
+        for (int k = 0; k < 4; k++) {
+            int z = 2 * (block >> 4) + (k >> 1);
+            int y = 2 * (block >> 2 & 3) + (k & 1);
+            const float *from = cells + (size_t)(z * 8 + y) * (size_t)size;
+            float *to = out + (size_t)(z * 8 + y) * (size_t)size;
+            for (int i = 0; i < size; i++)
+                to[i] += row[i] * from[i];
+        }
     }
-    for (int i = 0; weights > 0.0 && i < numbers; i++)
-        out[i] = (float)(sum[i] / weights);
+}
+
+static bool is_used(const float weight[FILTER_BLOCKS])
+{
+    for (int i = 0; i < FILTER_BLOCKS; i++)
+        if (weight[i] > 0.0f)
+            return true;
+    return false;
+}
+
+static void mix_brick(const struct adapt *a, const int corner[3],
+                      struct desk *d, float *out)
+{
+    struct filter_brick brick;
+    int numbers = a->judge.flat->view.field.numbers;
+    memset(out, 0, FILTER_CELLS * (size_t)numbers * sizeof *out);
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        if (is_used(d->weight[k]) &&
+            filter_view_brick(&a->judge.view[k], corner, &d->room, &brick))
+            mix_frame(brick.cells, numbers, d->weight[k], out);
 }
 
 static void adapt_brick(void *context, size_t index, int thread)
 {
     const struct adapt *a = context;
-    const radiance_lattice *f = &a->flat->view.field;
-    struct patch *p = &a->patch[thread];
-    int32_t slot = a->flat->radiance_slots[index];
-    float work[AROUND];
+    const struct flat *flat = a->judge.flat;
+    const radiance_lattice *f = &flat->view.field;
+    struct desk *d = &a->desk[thread];
+    const struct filter_stats *around[27];
+    int32_t slot = flat->radiance_slots[index];
     int corner[3];
     if (slot < 0)
         return;
     filter_corner(f, index, corner);
-    for (int k = MIDDLE - a->reach; k <= MIDDLE + a->reach; k++)
-        load_frame(a, p, k, corner);
-    find_means(p);
-    for (int m = 1; m <= a->reach; m++) {
-        find_differences(p, m, work);
-        find_shift(p, m, 0, work);
-        find_shift(p, m, 1, work);
+    find_around(a, (int[3]){corner[0] / 8, corner[1] / 8, corner[2] / 8},
+                around);
+    sum_around(d, around);
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        float weight[BRUME_MAX_TAPS];
+        find_weights(a, &d->near[i], &around[13][i], weight);
+        for (int k = 0; k < BRUME_MAX_TAPS; k++)
+            d->weight[k][i] = weight[k];
     }
-    float *out = a->flat->radiance + (size_t)slot * 512 * (size_t)f->numbers;
-    for (int i = 0; i < INSIDE; i++, out += f->numbers) {
-        double weight[BRUME_MAX_TAPS];
-        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
-                     corner[2] + (i >> 6)};
-        find_weights(a, p, i, weight);
-        mix_cell(a, at, weight, out);
-    }
+    mix_brick(a, corner, d,
+              flat->radiance +
+                  (size_t)slot * FILTER_CELLS * (size_t)f->numbers);
 }
 
 bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
                   int reach, int threads, struct brume_error *err)
 {
-    struct adapt a = {.flat = flat, .reach = reach};
+    struct adapt a = {.judge = {.flat = flat, .reach = reach}};
     const radiance_lattice *f = &flat->view.field;
-    a.primary = f->fluence >= 0 ? f->fluence : f->eye;
+    a.judge.primary = f->fluence >= 0 ? f->fluence : f->eye;
     for (int k = -reach; k <= reach; k++) {
         const struct filter_field *field = fields[reach + k];
-        filter_view_init(&a.view[MIDDLE + k], flat, field);
-        a.noise[MIDDLE + k] = field ? field->noise : 0.0;
+        filter_view_init(&a.judge.view[MIDDLE + k], flat, field);
+        a.noise[MIDDLE + k] = field ? (float)field->noise : 0.0f;
     }
+    /* A frame without light has no noise, and no weight without end. */
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        a.noise[k] = larger(a.noise[k], 1e-3f * a.noise[MIDDLE]);
     threads = threads > 0 ? threads : thread_processors();
-    a.patch = memory_new((size_t)threads, sizeof *a.patch, err);
-    if (!a.patch)
-        return false;
-    parallel_for(threads, flat->radiance_slots_count, adapt_brick, &a, NULL);
-    free(a.patch);
-    return true;
+    a.desk = memory_new((size_t)threads, sizeof *a.desk, err);
+    bool good = a.desk && filter_judge(&a.judge, threads, err);
+    if (good)
+        parallel_for(threads, flat->radiance_slots_count, adapt_brick, &a,
+                     NULL);
+    free(a.judge.stats);
+    free(a.desk);
+    return good;
 }

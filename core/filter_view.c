@@ -42,6 +42,41 @@ static double steepness(const radiance_lattice *f)
     }
 }
 
+/* Whether two frames are seen from the same side everywhere. */
+static bool same_eye(const struct flat *a, const struct filter_field *b)
+{
+    const camera *x = &a->view.view, *y = &b->eye;
+    const float *p = &x->location.x, *q = &y->location.x;
+    const float *d = &x->direction.x, *e = &y->direction.x;
+    bool same = x->orthographic == y->orthographic;
+    for (int i = 0; i < 3; i++) {
+        double moved = (double)p[i] / a->unit + a->centre[i] -
+                       (double)q[i] / b->unit - b->centre[i];
+        same = same && fabs(moved) * a->unit < 1e-5 &&
+               (!x->orthographic || d[i] == e[i]);
+    }
+    return same;
+}
+
+/* Lattices of a film begin at multiples of a brick (radiance.c), so that those
+ * of one side differ by whole bricks. */
+static void align(struct filter_view *v, const radiance_lattice *a,
+                  const struct flat *from)
+{
+    const struct filter_field *field = v->field;
+    const radiance_lattice *b = &field->lattice;
+    v->aligned = fabs(v->scale - 1.0) < 1e-6;
+    for (int i = 0; i < 3; i++) {
+        double first = (double)a->origin[i] + 0.5 * (double)a->side;
+        double world = first / from->unit + from->centre[i];
+        double there = (world - field->centre[i]) * field->unit;
+        v->shift[i] = (there - (double)b->origin[i]) / (double)b->side - 0.5;
+        double bricks = fmin(fmax(rint(v->shift[i] / 8.0), -1e6), 1e6);
+        v->brick[i] = (int)bricks;
+        v->aligned = v->aligned && fabs(v->shift[i] - 8.0 * bricks) < 1e-3;
+    }
+}
+
 void filter_view_init(struct filter_view *v, const struct flat *from,
                       const struct filter_field *field)
 {
@@ -51,24 +86,16 @@ void filter_view_init(struct filter_view *v, const struct flat *from,
     const radiance_lattice *a = &from->view.field, *b = &field->lattice;
     v->field = field;
     v->scale = (double)a->side / from->unit * field->unit / (double)b->side;
-    v->aligned = fabs(v->scale - 1.0) < 1e-6;
-    for (int i = 0; i < 3; i++) {
-        double first = (double)a->origin[i] + 0.5 * (double)a->side;
-        double world = first / from->unit + from->centre[i];
-        double there = (world - field->centre[i]) * field->unit;
-        v->shift[i] = (there - (double)b->origin[i]) / (double)b->side - 0.5;
-        v->offset[i] = (int)fmin(fmax(rint(v->shift[i]), -1e6), 1e6);
-        v->aligned = v->aligned && fabs(v->shift[i] - v->offset[i]) < 1e-3;
-    }
+    align(v, a, from);
     v->gain = a->ball && !a->thick ? (float)(field->unit / from->unit) : 1.0f;
     double steep = a->eye >= 0 ? steepness(a) : 0.0;
-    if (steep > 0.0) {
+    if (steep > 0.0 && !same_eye(from, field)) {
         v->from = from;
-        v->turn = MOST_CHANGE / steep;
+        v->turn = cos(fmin(MOST_CHANGE / steep, 3.14159265358979));
     }
 }
 
-/* ---- cells -------------------------------------------------------------- */
+/* ---- single cells ------------------------------------------------------- */
 
 static const float *cell_at(const struct filter_field *f, int x, int y, int z)
 {
@@ -138,32 +165,77 @@ static bool is_seen_alike(const struct filter_view *v, const int at[3])
 {
     const struct filter_field *f = v->field;
     const radiance_lattice *l = &v->from->view.field;
-    double p[3], a[3], b[3], cross = 0.0, dot = 0.0;
+    double p[3], a[3], b[3], dot = 0.0;
     for (int i = 0; i < 3; i++)
         p[i] = ((double)l->origin[i] + (at[i] + 0.5) * (double)l->side) /
                    v->from->unit +
                v->from->centre[i];
     way_to_eye(&v->from->view.view, v->from->unit, v->from->centre, p, a);
     way_to_eye(&f->eye, f->unit, f->centre, p, b);
-    for (int i = 0; i < 3; i++) {
-        double c = a[(i + 1) % 3] * b[(i + 2) % 3] -
-                   a[(i + 2) % 3] * b[(i + 1) % 3];
-        cross += c * c;
+    for (int i = 0; i < 3; i++)
         dot += a[i] * b[i];
-    }
-    return atan2(sqrt(cross), dot) <= v->turn;
+    return dot >= v->turn;
 }
 
-bool filter_view_cell(const struct filter_view *v, const int at[3],
-                      float out[FILTER_MAX_NUMBERS])
+/* ---- bricks ------------------------------------------------------------- */
+
+static const float *aligned_cells(const struct filter_view *v,
+                                  const int corner[3])
 {
-    if (!v->field || (v->from && !is_seen_alike(v, at)))
+    return cell_at(v->field, corner[0] + 8 * v->brick[0],
+                   corner[1] + 8 * v->brick[1], corner[2] + 8 * v->brick[2]);
+}
+
+static bool fill_cells(const struct filter_view *v, const int corner[3],
+                       struct filter_room *room)
+{
+    int numbers = v->field->lattice.numbers;
+    float *out = room->cells;
+    bool any = false;
+    for (int i = 0; i < FILTER_CELLS; i++, out += numbers) {
+        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
+                     corner[2] + (i >> 6)};
+        bool there = interpolate(v, at, out);
+        for (int k = 0; !there && k < numbers; k++)
+            out[k] = 0.0f;
+        room->there[i] = there ? 1.0f : 0.0f;
+        any = any || there;
+    }
+    return any;
+}
+
+/* Leaves out what was seen from elsewhere. */
+static bool drop_unlike(const struct filter_view *v, const int corner[3],
+                        float there[FILTER_CELLS])
+{
+    bool any = false;
+    for (int i = 0; i < FILTER_CELLS; i++) {
+        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
+                     corner[2] + (i >> 6)};
+        if (there[i] > 0.0f && !is_seen_alike(v, at))
+            there[i] = 0.0f;
+        any = any || there[i] > 0.0f;
+    }
+    return any;
+}
+
+bool filter_view_brick(const struct filter_view *v, const int corner[3],
+                       struct filter_room *room, struct filter_brick *out)
+{
+    if (!v->field)
         return false;
-    if (!v->aligned)
-        return interpolate(v, at, out);
-    const float *cell = cell_at(v->field, at[0] + v->offset[0],
-                                at[1] + v->offset[1], at[2] + v->offset[2]);
-    for (int i = 0; cell && i < v->field->lattice.numbers; i++)
-        out[i] = cell[i] * v->gain;
-    return cell != NULL;
+    out->there = NULL;
+    if (v->aligned && v->gain == 1.0f) {
+        out->cells = aligned_cells(v, corner);
+        if (!out->cells || !v->from)
+            return out->cells;
+        for (int i = 0; i < FILTER_CELLS; i++)
+            room->there[i] = 1.0f;
+    } else {
+        out->cells = room->cells;
+        if (!fill_cells(v, corner, room))
+            return false;
+    }
+    out->there = room->there;
+    return !v->from || drop_unlike(v, corner, room->there);
 }

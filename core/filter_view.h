@@ -3,26 +3,38 @@
 #define CORE_FILTER_VIEW_H
 #include "core/filter.h"
 
-enum { FILTER_MAX_NUMBERS = 16 };
+enum { FILTER_MAX_NUMBERS = 16, FILTER_CELLS = 512 };
 
 struct filter_view {
     const struct filter_field *field;   /* NULL: there is nothing to see   */
-    bool aligned;               /* cell i is the other's i + shift          */
+    bool aligned;               /* brick i is the other's i + brick         */
     double scale, shift[3];     /* of cells' numbers, 0 at the first middle */
-    int offset[3];
+    int brick[3];
     float gain;                 /* from its unit of length to the other's   */
     const struct flat *from;    /* set where the eye's place matters        */
-    double turn;                /* of the way to it, in radians, at most    */
+    double turn;                /* cosine of the way's turn to it, at least */
+};
+
+/* The cells of a brick, as they lie in a field. */
+struct filter_brick {
+    const float *cells;         /* numbers each                             */
+    const float *there;         /* of each cell 1, or 0: none; NULL: all    */
+};
+
+/* Where a brick's cells are put that lie in no field as they are wanted. */
+struct filter_room {
+    float cells[FILTER_CELLS * FILTER_MAX_NUMBERS], there[FILTER_CELLS];
 };
 
 /* A field of other numbers than the flat scene's has nothing to see. */
 void filter_view_init(struct filter_view *view, const struct flat *from,
                       const struct filter_field *field);
 
-/* The numbers at the middle of a cell of the flat scene's lattice. False: the
- * field has no cell there, or knows it from too different a side. */
-bool filter_view_cell(const struct filter_view *view, const int at[3],
-                      float out[FILTER_MAX_NUMBERS]);
+/* The numbers in a brick of the flat scene's lattice, which begins at a cell.
+ * False: the field has no cell there, or knows it from too different a side.
+ */
+bool filter_view_brick(const struct filter_view *view, const int corner[3],
+                       struct filter_room *room, struct filter_brick *out);
 
 /* The first cell of a brick. */
 void filter_corner(const radiance_lattice *lattice, size_t brick, int at[3]);

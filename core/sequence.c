@@ -230,8 +230,8 @@ static bool run_filter(struct shot *shot,
     const struct brume_options *o = &shot->options;
     if (o->photons.adaptive)
         return filter_adapt(shot->job.flat, fields, reach, o->threads, err);
-    filter_mean(shot->job.flat, fields, o->photons.weight, reach, o->threads);
-    return true;
+    return filter_mean(shot->job.flat, fields, o->photons.weight, reach,
+                       o->threads, err);
 }
 
 static bool filter_shot(struct brume_film *film, const struct task *task,

@@ -1,0 +1,191 @@
+#include "core/filter_judge.h"
+#include <stdlib.h>
+#include "lib/memory.h"
+#include "lib/thread.h"
+
+enum { COLORS = 3, ROW = 8 * COLORS, ROWS = 16, ALL = FILTER_CELLS * COLORS };
+
+/* One frame's part of a brick. */
+struct side {
+    bool any;
+    const float *color;          /* three a cell                       */
+    float there[FILTER_BLOCKS];  /* 1 where all cells of a block are   */
+    float copy[ALL];
+    struct filter_room room;
+};
+
+struct desk {
+    const struct filter_judge *judge;
+    struct side (*side)[3]; /* a thread's: middle, before and after    */
+};
+
+/* A block is there if all its cells are. */
+static void find_blocks(struct side *s, const float *there)
+{
+    for (int i = 0; i < FILTER_BLOCKS; i++)
+        s->there[i] = 1.0f;
+    for (int i = 0; there && i < FILTER_CELLS; i++) {
+        int x = i >> 1 & 3, y = i >> 4 & 3, z = i >> 7;
+        if (!(there[i] > 0.0f))
+            s->there[(z * 4 + y) * 4 + x] = 0.0f;
+    }
+}
+
+static void load(const struct filter_judge *judge, int k, const int corner[3],
+                 struct side *s)
+{
+    struct filter_brick brick;
+    int numbers = judge->flat->view.field.numbers;
+    s->any = filter_view_brick(&judge->view[k], corner, &s->room, &brick);
+    if (!s->any)
+        return;
+    find_blocks(s, brick.there);
+    s->color = numbers == COLORS ? brick.cells : s->copy;
+    for (int i = 0; numbers != COLORS && i < FILTER_CELLS; i++)
+        for (int c = 0; c < COLORS; c++)
+            s->copy[COLORS * i + c] =
+                brick.cells[i * numbers + judge->primary + c];
+}
+
+/* The first of the rows of cells that lie in a row of blocks, and the others:
+ * two layers of two. */
+static size_t row_at(int row, int i)
+{
+    int z = 2 * (row >> 2) + (i >> 1), y = 2 * (row & 3) + (i & 1);
+    return (size_t)(z * 8 + y) * ROW;
+}
+
+/* ---- a row of blocks ---------------------------------------------------- */
+
+static void add_shift(const float *restrict z, const float *restrict x,
+                      float *restrict sum, float *restrict square)
+{
+    for (int i = 0; i < ROW; i++) {
+        float d = z[i] - x[i];
+        sum[i] += d;
+        square[i] += d * d;
+    }
+}
+
+static void add_pair(const float *restrict z, const float *restrict x,
+                     const float *restrict y, float *restrict square)
+{
+    for (int i = 0; i < ROW; i++) {
+        float d = z[i] - 0.5f * (x[i] + y[i]);
+        square[i] += d * d;
+    }
+}
+
+/* Of block b in a row: all its numbers, or one channel's. */
+static float sum_of(const float row[ROW], int b)
+{
+    const float *x = row + 2 * COLORS * b;
+    return (x[0] + x[3]) + (x[1] + x[4]) + (x[2] + x[5]);
+}
+
+static float sum_of_channel(const float row[ROW], int b, int c)
+{
+    const float *x = row + 2 * COLORS * b + c;
+    return x[0] + x[COLORS];
+}
+
+static void judge_other(const struct side *middle, const struct side *other,
+                        int place, struct filter_stats *out)
+{
+    for (int row = 0; row < ROWS; row++) {
+        float sum[ROW] = {0}, square[ROW] = {0};
+        for (int i = 0; i < 4; i++)
+            add_shift(middle->color + row_at(row, i),
+                      other->color + row_at(row, i), sum, square);
+        for (int b = 0; b < 4; b++) {
+            struct filter_stats *s = &out[4 * row + b];
+            float both = middle->there[4 * row + b] * other->there[4 * row + b];
+            for (int c = 0; c < COLORS; c++)
+                s->shift[c][place] = both * sum_of_channel(sum, b, c);
+            s->differ[place] = both * sum_of(square, b);
+            s->count[place] = 8.0f * both;
+        }
+    }
+}
+
+static void judge_pair(const struct side side[3], int m,
+                       struct filter_stats *out)
+{
+    for (int row = 0; row < ROWS; row++) {
+        float square[ROW] = {0};
+        for (int i = 0; i < 4; i++)
+            add_pair(side[0].color + row_at(row, i),
+                     side[1].color + row_at(row, i),
+                     side[2].color + row_at(row, i), square);
+        for (int b = 0; b < 4; b++) {
+            int at = 4 * row + b;
+            float all = side[0].there[at] * side[1].there[at] *
+                        side[2].there[at];
+            out[at].pair[m - 1] = all * sum_of(square, b);
+            out[at].pairs[m - 1] = 8.0f * all;
+        }
+    }
+}
+
+static void judge_middle(const struct side *middle, struct filter_stats *out)
+{
+    for (int row = 0; row < ROWS; row++) {
+        float sum[ROW] = {0};
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < ROW; k++)
+                sum[k] += middle->color[row_at(row, i) + (size_t)k];
+        for (int b = 0; b < 4; b++) {
+            float there = middle->there[4 * row + b];
+            for (int c = 0; c < COLORS; c++)
+                out[4 * row + b].mean[c] = there * sum_of_channel(sum, b, c);
+            out[4 * row + b].cells = 8.0f * there;
+        }
+    }
+}
+
+/* ---- bricks ------------------------------------------------------------- */
+
+static void judge_brick(void *context, size_t index, int thread)
+{
+    const struct desk *desk = context;
+    const struct filter_judge *judge = desk->judge;
+    struct side *side = desk->side[thread];
+    int32_t slot = judge->flat->radiance_slots[index];
+    int corner[3];
+    if (slot < 0)
+        return;
+    filter_corner(&judge->flat->view.field, index, corner);
+    struct filter_stats *out = judge->stats + (size_t)slot * FILTER_BLOCKS;
+    load(judge, FILTER_MIDDLE, corner, &side[0]);
+    if (!side[0].any)
+        return;
+    judge_middle(&side[0], out);
+    for (int m = 1; m <= judge->reach; m++) {
+        for (int j = 1; j <= 2; j++) {
+            int k = FILTER_MIDDLE + (j == 1 ? -m : m);
+            load(judge, k, corner, &side[j]);
+            if (side[j].any)
+                judge_other(&side[0], &side[j], filter_other(k), out);
+        }
+        if (side[1].any && side[2].any)
+            judge_pair(side, m, out);
+    }
+}
+
+bool filter_judge(struct filter_judge *judge, int threads,
+                  struct brume_error *err)
+{
+    struct desk desk = {judge, NULL};
+    const struct flat *flat = judge->flat;
+    size_t numbers = (size_t)flat->view.field.numbers;
+    size_t blocks = flat->radiance_count / (numbers * FILTER_CELLS) *
+                    FILTER_BLOCKS;
+    judge->stats = memory_new(blocks, sizeof *judge->stats, err);
+    desk.side = memory_new((size_t)threads, sizeof *desk.side, err);
+    bool good = judge->stats && desk.side;
+    if (good)
+        parallel_for(threads, flat->radiance_slots_count, judge_brick, &desk,
+                     NULL);
+    free(desk.side);
+    return good;
+}
