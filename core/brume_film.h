@@ -10,7 +10,7 @@
 struct brume_film;
 
 /* Frames on each side over which weights are found if no number is given. */
-enum { BRUME_ADAPTIVE_REACH = 4 };
+enum { BRUME_ADAPTIVE_REACH = 8 };
 
 /* May be NULL; called by brume_film_next, in its thread. */
 struct brume_film_events {

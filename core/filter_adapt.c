@@ -32,7 +32,7 @@ struct adapt {
         struct filter_stats plane[24];
         float weight[BRUME_MAX_TAPS][FILTER_BLOCKS];
         struct filter_room room;
-    } *desk; /* a thread's */
+    } * desk; /* a thread's */
 };
 
 /* ---- surroundings ------------------------------------------------------- */
@@ -56,11 +56,11 @@ static void find_around(const struct adapt *a, const int at[3],
             z = at[2] + i / 9 - 1;
         bool in = x >= 0 && y >= 0 && z >= 0 && x < n[0] && y < n[1] &&
                   z < n[2];
-        int32_t slot = in ? flat->radiance_slots[(size_t)x +
-                                                 (size_t)n[0] *
-                                                     ((size_t)y +
+        int32_t slot =
+            in ? flat->radiance_slots[(size_t)x +
+                                      (size_t)n[0] * ((size_t)y +
                                                       (size_t)n[1] * (size_t)z)]
-                          : -1;
+               : -1;
         around[i] = slot < 0 ? NULL
                              : a->judge.stats + (size_t)slot * FILTER_BLOCKS;
     }
@@ -196,8 +196,8 @@ static struct estimate judge_two(const struct adapt *a,
     e.variance = 0.25f * (a->noise[e.from] + a->noise[e.to]) * level;
     float both = own + e.variance, count = s->pairs[m - 1];
     for (int c = 0; c < 3; c++) {
-        float d = 0.5f * (s->shift[c][i] / s->count[i] +
-                          s->shift[c][j] / s->count[j]);
+        float d = 0.5f *
+                  (s->shift[c][i] / s->count[i] + s->shift[c][j] / s->count[j]);
         square += d * d;
     }
     float change = s->pair[m - 1] / count - MARGIN * both;

@@ -8,8 +8,8 @@ enum { COLORS = 3, ROW = 8 * COLORS, ROWS = 16, ALL = FILTER_CELLS * COLORS };
 /* One frame's part of a brick. */
 struct side {
     bool any;
-    const float *color;          /* three a cell                       */
-    float there[FILTER_BLOCKS];  /* 1 where all cells of a block are   */
+    const float *color;         /* three a cell                       */
+    float there[FILTER_BLOCKS]; /* 1 where all cells of a block are   */
     float copy[ALL];
     struct filter_room room;
 };

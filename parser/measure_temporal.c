@@ -12,8 +12,8 @@ static const struct {
     int taps;
     bool adaptive;
 } filters[MEASURE_FILTERS] = {
-    {"1", 1, false},       {"3", 3, false},          {"5", 5, false},
-    {"adaptive", 9, true}, {"adaptive,8", 17, true},
+    {"1", 1, false},         {"3", 3, false},        {"5", 5, false},
+    {"adaptive,4", 9, true}, {"adaptive", 17, true},
 };
 
 /* A seed of its own for the reference: what is measured must not share its

@@ -17,7 +17,7 @@ column()
 {
     awk -F, -v name="$1" -v row="\"$2\"" '
         NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i }
-        { gsub(/"adaptive,8"/, "\"most\"") }
+        { gsub(/"adaptive,4"/, "\"four\"") }
         $1 == row { print $c }' still.flicker.csv
 }
 

@@ -41,7 +41,7 @@ cmp -s best5.png five5.png && complain 'adaptive is as 5 taps'
 cmp -s best5.png none5.png && complain 'a film is not filtered'
 brume none.pov $film --temporal adaptive +Oadaptive
 all_same best adaptive
-fog 'temporal { adaptive reach 4 }' >written.pov
+fog 'temporal { adaptive reach 8 }' >written.pov
 brume written.pov $film +Oadaptive
 all_same best adaptive
 brume none.pov $film --temporal adaptive,2 +Oshort

@@ -78,7 +78,8 @@ static double variance_of(int taps, uint32_t first)
             list[k] = &fields[k];
         }
         struct brume_options o = options(taps, 0);
-        assert_true(filter_mean(flat, list, o.photons.weight, taps / 2, 1, truth_error()));
+        assert_true(filter_mean(flat, list, o.photons.weight, taps / 2, 1,
+                                truth_error()));
         count = flat->radiance_count;
         sum = sum ? sum : calloc(count, sizeof *sum);
         square = square ? square : calloc(count, sizeof *square);
@@ -130,7 +131,8 @@ static void check_response(int taps, const double *frequency,
             for (size_t n = 0; n < field[k].count; n++)
                 field[k].cells[n] = (float)(2.0 + swing);
         }
-        assert_true(filter_mean(flat, list, o.photons.weight, taps / 2, 1, truth_error()));
+        assert_true(filter_mean(flat, list, o.photons.weight, taps / 2, 1,
+                                truth_error()));
         for (size_t n = 0; n < flat->radiance_count; n++)
             most = fmax(most,
                         fabs((double)flat->radiance[n] - 2.0 - response[i]));
@@ -230,7 +232,8 @@ static void filter__keeps_what_does_not_change(void **state)
     size_t size = flat->radiance_count * sizeof *flat->radiance;
     for (int i = 0; i < 2; i++) {
         memset(flat->radiance, 0, size);
-        assert_true(filter_mean(flat, i ? end : all, o.photons.weight, 2, 1, truth_error()));
+        assert_true(filter_mean(flat, i ? end : all, o.photons.weight, 2, 1,
+                                truth_error()));
         for (size_t k = 0; k < flat->radiance_count; k++)
             assert_float_equal(flat->radiance[k], field.cells[k],
                                1e-6f * field.cells[k]);
@@ -306,7 +309,8 @@ static void filter__peaked_media_keep_to_the_eye(void **state)
         struct flat *flat = trace(fog_ball(0.0, 0.7, 0.0), &o, &field[1]);
         assert_true(flat->view.field.eye == 0);
         const struct filter_field *list[3] = {&field[0], &field[1], NULL};
-        assert_true(filter_mean(flat, list, o.photons.weight, 1, 1, truth_error()));
+        assert_true(
+            filter_mean(flat, list, o.photons.weight, 1, 1, truth_error()));
         size_t size = flat->radiance_count * sizeof *flat->radiance;
         int same = memcmp(flat->radiance, field[1].cells, size) == 0;
         assert_int_equal(same, moved);
