@@ -90,7 +90,7 @@ static void share_out(const flat_scene *s, struct photons *p)
     }
 }
 
-static uint64_t count_of(const struct brume_options *options)
+uint64_t photons_asked(const struct brume_options *options)
 {
     if (options->photons.count > 0)
         return options->photons.count;
@@ -108,7 +108,7 @@ bool photons_plan(const struct flat *flat, const struct brume_options *options,
     if (!out->sources)
         return false;
     out->job.source = out->sources;
-    out->job.count = count_of(options);
+    out->job.count = photons_asked(options);
     out->job.first = pass * out->job.count;
     out->job.seed = options->seed;
     out->job.frame = options->frame;

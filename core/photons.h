@@ -10,6 +10,9 @@ struct photons {
     photon_source *sources;
 };
 
+/* Photons of a field. */
+uint64_t photons_asked(const struct brume_options *options);
+
 /* Lists the sources of the scene with their shares, for field `pass` of many,
  * or 0: none where nothing emits
  * toward it. */

@@ -33,10 +33,8 @@ bool cuda_available(char *why, size_t size)
 void cuda_close(void *state)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
-    if (s) {
+    if (s)
         device_arena_free(&s->arena);
-        photons_close(s);
-    }
     delete s;
 }
 
@@ -46,7 +44,7 @@ size_t frame_bytes(const cuda_state *s)
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
-                   photons_bytes(&s->frame);
+                   photons_bytes(s);
 #define X(type, name) bytes += device_round(view->name##_count * sizeof(type));
     SCENE_ARRAYS(X)
 #undef X

@@ -6,9 +6,6 @@ extern "C" {
 #include "core/backend.h"
 }
 
-/* Warps of one launch of the trace stage, at most. */
-const unsigned trace_warps = 8192;
-
 struct cuda_state {
     backend_frame frame;
     device_arena arena;
@@ -19,17 +16,17 @@ struct cuda_state {
     int64_t *sum;               /* of its cells; NULL without photons      */
     photon_source *source;
     photon_totals *total;
-    photon_books *books;        /* of each warp of a launch                */
-    photon_books *host_books;
+    void *list;                 /* of photons that are born                */
+    unsigned *taken;            /* of them                                 */
+    unsigned trace_warps;       /* as many as run at once                  */
 };
 
 /* photons.cu */
 
 /* Bytes of the device that photons need, beside the scene's. */
-size_t photons_bytes(const backend_frame *frame);
+size_t photons_bytes(const cuda_state *s);
 /* Takes them, and clears the sums. */
 bool photons_open(cuda_state *s, brume_error *err);
-void photons_close(cuda_state *s);
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
                 brume_error *err);
 bool cuda_gather(void *state, double unit, brume_error *err);

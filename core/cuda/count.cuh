@@ -1,15 +1,16 @@
-/* count.cuh - sums over the threads of a warp: of whole numbers in any order,
- * of others in one that is always the same. */
+/* count.cuh - sums of whole numbers over the threads of a warp. */
 #ifndef CORE_CUDA_COUNT_CUH
 #define CORE_CUDA_COUNT_CUH
 #include "core/cuda/sample.cuh"
+
+const int warp_size = 32;
 
 /* Adds the numbers of a warp's threads, all of them here, to a sum. */
 __device__ inline void count_warp(unsigned long long *sum, uint64_t value)
 {
     for (int i = 16; i > 0; i /= 2)
         value += __shfl_xor_sync(~0u, value, i);
-    if (threadIdx.x == 0 && value > 0)
+    if (threadIdx.x % warp_size == 0 && value != 0)
         atomicAdd(sum, static_cast<unsigned long long>(value));
 }
 
@@ -18,14 +19,5 @@ __device__ inline void count_add(device_counters *sum, const track_counters *c)
 #define X(name) count_warp(&sum->name, c->name);
     TRACK_COUNTERS(X)
 #undef X
-}
-
-/* Sets a number to the sum of those of the warp's threads. */
-__device__ inline void count_book(double *book, double value)
-{
-    for (int i = 16; i > 0; i /= 2)
-        value += __shfl_xor_sync(~0u, value, i);
-    if (threadIdx.x == 0)
-        *book = value;
 }
 #endif

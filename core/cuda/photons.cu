@@ -1,18 +1,20 @@
 /* The stages of the integrator photon: launches, and what becomes of their
  * counts. The sums of the field's cells and the field stay on the device. */
-#include <cstdlib>
 #include "core/cuda/backend.cuh"
+#include "core/cuda/count.cuh"
 extern "C" {
 #include "core/radiance.h"
-#include "lib/memory.h"
 }
 
 namespace
 {
 
-/* Photons of a warp: as many as fill a launch, but enough to be shared by its
- * threads and few enough for a stop to be heard soon. */
-const uint64_t least_chunk = 32, most_chunk = 256;
+/* Photons of a launch, at most: many for each thread, few enough for a stop to
+ * be heard soon, and for the memory. */
+const uint64_t most_photons = 1u << 20;
+
+/* Warps of a multiprocessor that trace. */
+const int warps_each = 16;
 
 const int block_size = 256;
 
@@ -21,33 +23,15 @@ uint64_t most_sources(const backend_frame *frame)
     return frame->flat->view.lights_count + 3;
 }
 
-uint64_t chunk_of(uint64_t photons)
+uint64_t list_photons(const backend_frame *frame)
 {
-    uint64_t chunk = photons / trace_warps + 1;
-    return chunk < least_chunk  ? least_chunk
-           : chunk > most_chunk ? most_chunk
-                                : chunk;
+    uint64_t count = photons_asked(frame->options);
+    return count < most_photons ? count : most_photons;
 }
 
-void add_books(const photon_books *b, brume_photon_stats *out)
+double book_of(unsigned long long sum)
 {
-#define X(name) out->name += b->name;
-    PHOTON_BOOKS(X)
-#undef X
-}
-
-/* In the order of the warps. */
-bool read_books(cuda_state *s, unsigned warps, brume_stats *out,
-                brume_error *err)
-{
-    if (!device_check(cudaMemcpy(s->host_books, s->books,
-                                 warps * sizeof *s->books,
-                                 cudaMemcpyDeviceToHost),
-                      "the trace stage", err))
-        return false;
-    for (unsigned i = 0; i < warps; i++)
-        add_books(&s->host_books[i], &out->photons);
-    return true;
+    return static_cast<double>(static_cast<int64_t>(sum)) / PHOTON_BOOK_ONE;
 }
 
 bool read_totals(cuda_state *s, brume_stats *out, brume_error *err)
@@ -63,17 +47,19 @@ bool read_totals(cuda_state *s, brume_stats *out, brume_error *err)
     out->photons.bounces += t.bounces;
     out->photons.stored += t.stored;
     out->photons.clipped += t.clipped;
+#define X(name) out->photons.name += book_of(t.name);
+    PHOTON_BOOKS(X)
+#undef X
     return true;
 }
 
-/* The launch of photons [job->first, job->last). */
-bool launch(cuda_state *s, const trace_job *job, brume_stats *stats,
-            brume_error *err)
+bool launch(const cuda_state *s, const trace_job *job, brume_error *err)
 {
-    uint64_t warps = (job->last - job->first + job->chunk - 1) / job->chunk;
-    s->photons->trace(job, static_cast<unsigned>(warps));
+    unsigned needed = (job->born + warp_size - 1) / warp_size;
+    s->photons->bear(job);
+    s->photons->trace(job, needed < s->trace_warps ? needed : s->trace_warps);
     return device_check(cudaGetLastError(), "launching the trace stage", err) &&
-           read_books(s, static_cast<unsigned>(warps), stats, err);
+           device_check(cudaDeviceSynchronize(), "the trace stage", err);
 }
 
 bool start(cuda_state *s, const photon_job *job, trace_job *out,
@@ -82,10 +68,10 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
     out->scene = s->job.scene;
     out->photons = *job;
     out->photons.source = s->source;
-    out->chunk = chunk_of(job->count);
+    out->list = s->list;
+    out->taken = s->taken;
     out->sum = s->sum;
     out->total = s->total;
-    out->books = s->books;
     size_t bytes = static_cast<size_t>(job->sources) * sizeof *s->source;
     return device_check(cudaMemcpy(s->source, job->source, bytes,
                                    cudaMemcpyHostToDevice),
@@ -105,14 +91,16 @@ __global__ void resolve(const int64_t *sum, float *cells, uint64_t count,
 
 }
 
-size_t photons_bytes(const backend_frame *frame)
+size_t photons_bytes(const cuda_state *s)
 {
+    const backend_frame *frame = &s->frame;
     if (!frame->stages->photons)
         return 0;
     return device_round(radiance_sum_bytes(frame->flat)) +
            device_round(most_sources(frame) * sizeof(photon_source)) +
            device_round(sizeof(photon_totals)) +
-           device_round(trace_warps * sizeof(photon_books));
+           device_round(list_photons(frame) * s->photons->state_bytes) +
+           device_round(sizeof(unsigned));
 }
 
 bool photons_open(cuda_state *s, brume_error *err)
@@ -120,24 +108,22 @@ bool photons_open(cuda_state *s, brume_error *err)
     if (!s->frame.stages->photons)
         return true;
     size_t bytes = radiance_sum_bytes(s->frame.flat);
-    s->host_books = static_cast<photon_books *>(
-        memory_new(trace_warps, sizeof *s->host_books, err));
-    if (!s->host_books)
+    int device = 0, processors = 0;
+    if (!device_check(cudaGetDevice(&device), "the trace stage", err) ||
+        !device_check(cudaDeviceGetAttribute(
+                          &processors, cudaDevAttrMultiProcessorCount, device),
+                      "the trace stage", err))
         return false;
+    s->trace_warps = static_cast<unsigned>(processors * warps_each);
     device_arena *a = &s->arena;
     s->sum = static_cast<int64_t *>(device_take(a, bytes));
     s->source = static_cast<photon_source *>(
         device_take(a, most_sources(&s->frame) * sizeof *s->source));
     s->total = static_cast<photon_totals *>(device_take(a, sizeof *s->total));
-    s->books = static_cast<photon_books *>(
-        device_take(a, trace_warps * sizeof *s->books));
+    s->list = device_take(a, list_photons(&s->frame) * s->photons->state_bytes);
+    s->taken = static_cast<unsigned *>(device_take(a, sizeof *s->taken));
     return device_check(cudaMemset(s->sum, 0, bytes), "clearing the field",
                         err);
-}
-
-void photons_close(cuda_state *s)
-{
-    free(s->host_books);
 }
 
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
@@ -147,13 +133,15 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
     trace_job t;
     if (!start(s, job, &t, err))
         return false;
-    for (t.first = 0; t.first < job->count; t.first = t.last) {
-        t.last = t.first + trace_warps * t.chunk;
-        t.last = t.last < job->count ? t.last : job->count;
-        if (!launch(s, &t, stats, err))
+    uint64_t most = list_photons(&s->frame);
+    for (t.first = 0; t.first < job->count; t.first += t.born) {
+        uint64_t left = job->count - t.first;
+        t.born = static_cast<unsigned>(left < most ? left : most);
+        if (!launch(s, &t, err))
             return false;
-        if (!s->frame.tick(s->frame.user, static_cast<double>(t.last) /
-                                              static_cast<double>(job->count)))
+        double done = static_cast<double>(t.first + t.born);
+        if (!s->frame.tick(s->frame.user,
+                           done / static_cast<double>(job->count)))
             return true;
     }
     return read_totals(s, stats, err);

@@ -6,20 +6,26 @@
 #include "core/cuda/sample.cuh"
 #include "core/physics/photon.h"
 
-/* Sums of photon_counters that are whole numbers. */
+/* Sums of photon_counters; of books in parts of PHOTON_BOOK_ONE. */
 struct photon_totals {
     device_counters track;
     unsigned long long photons, events, bounces, stored, clipped;
+#define X(name) unsigned long long name;
+    PHOTON_BOOKS(X)
+#undef X
 };
 
-/* Photons [first, last): `chunk` of them a warp, whose books are kept apart. */
+/* Photons from `first` on, as many as `born`. */
 struct trace_job {
     flat_scene scene;       /* its pointers are the device's               */
     photon_job photons;
-    uint64_t first, last, chunk;
+    uint64_t first;
+    unsigned born;
+    void *list;             /* of photon_state, as the stage knows it: those
+                               that are born; black: to no avail           */
+    unsigned *taken;        /* of the list                                 */
     int64_t *sum;           /* of the field's cells                        */
     photon_totals *total;
-    photon_books *books;    /* a warp's                                    */
 };
 
 /* What is done to every cell. */
@@ -32,6 +38,8 @@ struct cell_job {
 
 struct photon_stage {
     int may;                /* MAY_* of the scenes that it can do          */
+    size_t state_bytes;     /* of a photon_state                           */
+    void (*bear)(const trace_job *job);
     void (*trace)(const trace_job *job, unsigned warps);
     void (*balls)(const cell_job *job);
     void (*light)(const cell_job *job);

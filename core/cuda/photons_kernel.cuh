@@ -1,10 +1,10 @@
 /* photons_kernel.cuh - the kernels of the integrator photon. PHOTON_STAGE names
  * what is defined here, SCENE_MAY what it can do.
  *
- * A warp takes a chunk of photons and its threads take them in turn. What a
- * thread has to do next is its phase; the warp does what most of them wait for.
- * Who takes which photon does not depend on time, so that the books come out
- * the same from run to run; the sums of cells are whole numbers. */
+ * Photons are born by a kernel of its own, and wait in a list. Warps that stay
+ * take them from there: what a thread has to do next is its phase, and the warp
+ * does what most of its threads wait for. Who takes which photon depends on
+ * time; all sums are of whole numbers, so that none shows it. */
 #include "core/cuda/count.cuh"
 #include "core/cuda/phase.cuh"
 #include "core/cuda/photons.cuh"
@@ -13,66 +13,65 @@
 namespace
 {
 
-const int warp_size = 32;
 /* Warps that a multiprocessor must have room for: 128 registers a thread. */
 const int warps_at_once = 16;
+const int births_at_once = 128;
 enum phase {
-    PHASE_BIRTH,
-    PHASE_TAKE_OFF,
+    PHASE_EVENT,            /* at a flight's end, or without a photon      */
     PHASE_TRACK,
     PHASE_LAY,
-    PHASE_LAND,
     PHASES                  /* no photon is left                           */
 };
 
 struct tracer {
     photon_state photon;
     photon_flight flight;
+    bool alive;
     int phase;
 };
 
-/* Gives threads that wait for one the next photons; *next is the same in all
- * threads of the warp. */
-__device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
-                                             photon_counters *count,
-                                             uint64_t *next, uint64_t end)
-{
-    bool idle = t->phase == PHASE_BIRTH;
-    unsigned all = __ballot_sync(~0u, idle);
-    uint64_t mine = *next + __popc(all & ((1u << threadIdx.x) - 1u));
-    *next += __popc(all);
-    *next = *next < end ? *next : end;
-    if (idle && mine >= end)
-        t->phase = PHASES;
-    else if (idle && photon_begin(&job->scene, &job->photons, mine, &t->photon,
-                                  count))
-        t->phase = PHASE_TAKE_OFF;
-}
-
 __device__ __forceinline__ int flight_phase(const photon_flight *f)
 {
-    return f->lays ? PHASE_LAY : f->flies ? PHASE_TRACK : PHASE_LAND;
+    return f->lays ? PHASE_LAY : f->flies ? PHASE_TRACK : PHASE_EVENT;
 }
 
-/* Does what the threads of that phase wait for. */
-__device__ __forceinline__ void go_on(const trace_job *job, tracer *t,
-                                      photon_counters *count, int phase)
+/* Gives threads that wait for one the next photons of the list. All threads
+ * of the warp are here. */
+__device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
+                                             photon_counters *count)
 {
-    const flat_scene *s = &job->scene;
-    if (t->phase != phase)
+    bool idle = t->phase == PHASE_EVENT && !t->alive;
+    unsigned all = __ballot_sync(~0u, idle);
+    unsigned first = 0;
+    if (all == 0u)
         return;
-    if (phase == PHASE_LAND) {
-        bool alive = photon_land(s, &t->photon, count, &t->flight);
-        t->phase = alive ? PHASE_TAKE_OFF : PHASE_BIRTH;
+    if (threadIdx.x == 0)
+        first = atomicAdd(job->taken, __popc(all));
+    first = __shfl_sync(~0u, first, 0) +
+            __popc(all & ((1u << threadIdx.x) - 1u));
+    if (!idle)
+        return;
+    if (first >= job->born) {
+        t->phase = PHASES;
         return;
     }
-    if (phase == PHASE_TAKE_OFF)
+    t->photon = static_cast<const photon_state *>(job->list)[first];
+    t->photon.path.count = &count->track;
+    t->alive = !rgb_is_black(t->photon.path.beta);
+}
+
+/* What follows a flight, and the next one. */
+__device__ __forceinline__ void go_on(const trace_job *job, tracer *t,
+                                      photon_counters *count)
+{
+    const flat_scene *s = &job->scene;
+    if (t->phase == PHASE_EVENT && t->alive)
+        t->alive = photon_land(s, &t->photon, count, &t->flight);
+    take_photons(job, t, count);
+    if (t->phase == PHASE_EVENT && t->alive) {
         photon_take_off(s, &t->photon, count, &t->flight);
-    else if (phase == PHASE_TRACK)
-        photon_track(s, &t->photon, count, &t->flight);
-    else
-        photon_lay(s, &t->photon, count, &t->flight);
-    t->phase = flight_phase(&t->flight);
+        t->phase = flight_phase(&t->flight);
+    }
 }
 
 __device__ __forceinline__ void write_counts(const trace_job *job,
@@ -85,28 +84,51 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
     count_warp(&total->bounces, c->bounces);
     count_warp(&total->stored, c->stored);
     count_warp(&total->clipped, c->tally.clipped);
-    photon_books *books = &job->books[blockIdx.x];
-#define X(name) count_book(&books->name, c->books.name);
+#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
     PHOTON_BOOKS(X)
 #undef X
+}
+
+__global__ void __launch_bounds__(births_at_once)
+bear_photons(const __grid_constant__ trace_job job)
+{
+    unsigned i = blockIdx.x * births_at_once + threadIdx.x;
+    photon_counters count = {};
+    count.tally.sum = job.sum;
+    if (i == 0)
+        *job.taken = 0;
+    if (i < job.born) {
+        photon_state p;
+        if (!photon_begin(&job.scene, &job.photons, job.first + i, &p, &count))
+            p.path.beta = rgb_gray(0.0f);
+        static_cast<photon_state *>(job.list)[i] = p;
+    }
+    write_counts(&job, &count);
 }
 
 __global__ void __launch_bounds__(warp_size, warps_at_once)
 trace_photons(const __grid_constant__ trace_job job)
 {
-    uint64_t next = job.first + blockIdx.x * job.chunk;
-    uint64_t end = next + job.chunk < job.last ? next + job.chunk : job.last;
-    photon_counters count = {};
+    __shared__ photon_counters counts[warp_size];
+    photon_counters *count = &counts[threadIdx.x];
     tracer t;
     int phase;
-    count.tally.sum = job.sum;
-    t.phase = PHASE_BIRTH;
-    while ((phase = phase_busiest(t.phase, PHASES)) != PHASES)
-        if (phase == PHASE_BIRTH)
-            take_photons(&job, &t, &count, &next, end);
-        else
-            go_on(&job, &t, &count, phase);
-    write_counts(&job, &count);
+    *count = {};
+    count->tally.sum = job.sum;
+    t.phase = PHASE_EVENT;
+    t.alive = false;
+    while ((phase = phase_busiest(t.phase, PHASES)) != PHASES) {
+        if (phase == PHASE_EVENT) {
+            go_on(&job, &t, count);
+        } else if (t.phase == phase) {
+            if (phase == PHASE_LAY)
+                photon_lay(&job.scene, &t.photon, count, &t.flight);
+            else
+                photon_track(&job.scene, &t.photon, count, &t.flight);
+            t.phase = flight_phase(&t.flight);
+        }
+    }
+    write_counts(&job, count);
 }
 
 const int cells_at_once = 128; /* of a brick of 512, in one block */
@@ -147,6 +169,12 @@ unsigned cell_blocks(const cell_job *job)
            (512 / cells_at_once);
 }
 
+void bear(const trace_job *job)
+{
+    bear_photons<<<(job->born + births_at_once - 1) / births_at_once,
+                   births_at_once>>>(*job);
+}
+
 void trace(const trace_job *job, unsigned warps)
 {
     trace_photons<<<warps, warp_size>>>(*job);
@@ -164,4 +192,5 @@ void light(const cell_job *job)
 
 }
 
-const photon_stage PHOTON_STAGE = {SCENE_MAY, trace, balls, light};
+const photon_stage PHOTON_STAGE = {SCENE_MAY, sizeof(photon_state), bear,
+                                   trace, balls, light};

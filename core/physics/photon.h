@@ -7,7 +7,9 @@
 /* ---- flights ----------------------------------------------------------- */
 
 /* A flight between two events or surfaces, in steps: on a GPU the threads of a
- * warp take them side by side, however many each flight has. */
+ * warp take them side by side, however many each flight has. What several of
+ * its ways lead to stands in one place, and waits until it is come to: there
+ * are few instructions, and threads meet. */
 typedef struct {
     ray_hit hit;            /* the next surface                            */
     media_walk walk;
@@ -18,17 +20,27 @@ typedef struct {
     int32_t event;          /* PATH_*: how it ends                         */
     path_event at;
     int32_t flies;          /* it has not ended                            */
-    int32_t lays;           /* a stretch of it is not laid yet             */
+    int32_t draws;          /* tau is to be drawn                          */
+    int32_t collides;       /* it is at a tentative collision              */
+    int32_t lays;           /* PHOTON_LAYS_*                               */
     radiance_walk stretch;
     rgb lays_power;
 } photon_flight;
+
+/* Whether a stretch of a flight is still to be laid. */
+enum { PHOTON_LAYS_NONE, PHOTON_LAYS_ALL, PHOTON_LAYS_REST };
 
 /* Lays a cell of the stretch. */
 HD void photon_lay(const flat_scene *s, const photon_state *p,
                    photon_counters *c, photon_flight *f)
 {
-    f->lays = radiance_lay(s, &c->tally, &f->stretch, p->path.o, p->path.d,
-                           f->lays_power);
+    bool more = f->lays == PHOTON_LAYS_REST ||
+                radiance_begin(s, p->path.o, p->path.d, f->stretch.t,
+                               f->stretch.end, &f->stretch);
+    if (more)
+        more = radiance_lay(s, &c->tally, &f->stretch, p->path.o, p->path.d,
+                            f->lays_power);
+    f->lays = more ? PHOTON_LAYS_REST : PHOTON_LAYS_NONE;
 }
 
 /* The flight is to be laid up to t, with that power. While a stretch is left
@@ -40,8 +52,9 @@ HD void photon_leave(const flat_scene *s, photon_state *p,
     bool laid = f->lays || !p->stored || !c->tally.sum || s->field.ball;
     if (!laid && t > p->laid) {
         f->lays_power = rgb_scale(beta, 1.0f / rgb_mean(r_u));
-        f->lays = radiance_begin(s, p->path.o, p->path.d, p->laid, t,
-                                 &f->stretch);
+        f->lays = PHOTON_LAYS_ALL;
+        f->stretch.t = p->laid;
+        f->stretch.end = t;
     }
     p->laid = t;
 }
@@ -56,12 +69,12 @@ HD bool photon_gray(rgb c)
 HD void photon_fly(const flat_scene *s, photon_state *p, photon_counters *c,
                    photon_flight *f, float step)
 {
-    if (!photon_gray(f->majorant)) {
-        rgb ratio = path_ratio(&p->path, f->majorant,
-                               step * rng_float(&p->path.random));
-        photon_leave(s, p, c, f, f->t + step, rgb_mul(p->path.beta, ratio),
-                     rgb_mul(p->path.r_u, ratio));
-    }
+    if (photon_gray(f->majorant))
+        return;
+    rgb ratio = path_ratio(&p->path, f->majorant,
+                           step * rng_float(&p->path.random));
+    photon_leave(s, p, c, f, f->t + step, rgb_mul(p->path.beta, ratio),
+                 rgb_mul(p->path.r_u, ratio));
     path_fly(&p->path, f->majorant, step);
 }
 
@@ -81,8 +94,9 @@ HD void photon_take_off(const flat_scene *s, photon_state *p,
     f->hit = bvh_nearest(s, &r, &a->after, s->far);
     f->event = PATH_THROUGH;
     f->power = photon_power(p);
-    f->flies = 1;
-    f->lays = 0;
+    f->flies = f->draws = 1;
+    f->collides = 0;
+    f->lays = PHOTON_LAYS_NONE;
     c->track.rays++;
     if (f->hit.shape < 0)
         container_leave_bounded(s, &a->inside);
@@ -94,7 +108,6 @@ HD void photon_take_off(const flat_scene *s, photon_state *p,
         photon_passes(s, p, c, f);
         return;
     }
-    f->tau = rng_optical_depth(&a->random);
     f->majorant = path_majorant(s, &f->walk, false);
     f->t = f->walk.t;
 }
@@ -117,21 +130,28 @@ HD void photon_collide(const flat_scene *s, photon_state *p,
         f->at.medium = walk_part(&f->walk, which)->medium;
 }
 
-/* Delta tracking as in path_track: to the next tentative collision or the end
- * of a piece. */
+/* Delta tracking as in path_track: what comes of a tentative collision, then
+ * on to the next one or the end of a piece. */
 HD void photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
                      photon_flight *f)
 {
+    if (f->draws)
+        f->tau = rng_optical_depth(&p->path.random);
+    f->draws = 0;
+    if (f->collides) {
+        f->collides = 0;
+        photon_collide(s, p, c, f);
+        if (!f->flies || f->lays)
+            return;
+    }
     float driver = rgb_get(f->majorant, p->path.driver);
     float left = driver * (f->walk.t_end - f->t);
-    if (f->tau < left) {
-        photon_fly(s, p, c, f, f->tau / driver);
-        f->t += f->tau / driver;
-        f->tau = rng_optical_depth(&p->path.random);
-        photon_collide(s, p, c, f);
+    f->collides = f->draws = f->tau < left;
+    float step = f->collides ? f->tau / driver : f->walk.t_end - f->t;
+    photon_fly(s, p, c, f, step);
+    f->t += step;
+    if (f->collides)
         return;
-    }
-    photon_fly(s, p, c, f, f->walk.t_end - f->t);
     f->tau -= left;
     if (walk_next(s, &f->walk)) {
         f->majorant = path_majorant(s, &f->walk, false);
@@ -143,26 +163,51 @@ HD void photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
 
 /* ---- events ------------------------------------------------------------ */
 
-HD void photon_end(const photon_state *p, double *book)
+HD void photon_end(const photon_state *p, photon_sum *book)
 {
-    *book += photon_power(p);
+    photon_book(book, photon_power(p));
 }
 
-/* The end of a light's first flight at t: its power is told. */
-HD void photon_arrive(const flat_scene *s, photon_state *p,
+/* What a light gives at the end of a first flight, and its direction there. */
+typedef struct {
+    float law;
+    vec3 d;
+} photon_first;
+
+HD_SHARED photon_first photon_first_at(const flat_scene *s, int32_t light,
+                                       vec3 o, vec3 d, vec3 from, float t)
+{
+    photon_first first;
+    photon_state p;
+    p.light = light;
+    p.path.o = o;
+    p.path.d = d;
+    p.from = from;
+    first.law = photon_law(s, &p, t);
+    first.d = photon_arrives(s, &p, t);
+    return first;
+}
+
+/* The end of a light's first flight at t: its power is told. Returns the
+ * direction in which the light comes there. */
+HD vec3 photon_arrive(const flat_scene *s, photon_state *p,
                       photon_counters *c, float t, float factor)
 {
     double before = photon_power(p);
-    p->path.beta = rgb_scale(p->path.beta, photon_law(s, p, t) * factor);
+    photon_first first = photon_first_at(s, p->light, p->path.o, p->path.d,
+                                         p->from, t);
+    p->path.beta = rgb_scale(p->path.beta, first.law * factor);
     p->light = -1;
-    c->books.units += photon_power(p) - before;
+    photon_book(&c->books.units, photon_power(p) - before);
+    return first.d;
 }
 
 HD bool photon_roulette(photon_state *p, photon_counters *c)
 {
     double before = photon_power(p);
     bool alive = path_survives(&p->path);
-    c->books.roulette += before - (alive ? photon_power(p) : 0.0);
+    photon_book(&c->books.roulette,
+                before - (alive ? photon_power(p) : 0.0));
     return alive;
 }
 
@@ -186,10 +231,9 @@ HD bool photon_scatter(const flat_scene *s, photon_state *p,
     photon_store(s, p, c, at, d, m->phase, m->g);
     if (p->light >= 0) {
         bool seen = s->lights[p->light].media_interaction != 0;
-        d = photon_arrives(s, p, event->t);
-        photon_arrive(s, p, c, event->t, phase_pov_scale(m->phase));
+        d = photon_arrive(s, p, c, event->t, phase_pov_scale(m->phase));
         if (!seen) {
-            c->books.media += photon_power(p);
+            photon_book(&c->books.media, photon_power(p));
             return false;
         }
     }
@@ -280,11 +324,11 @@ HD bool photon_bounce(const flat_scene *s, photon_state *p,
         value = photon_reflects(at, p->path.d, out, highlights);
     }
     if (!(pdf > 0.0f) || rgb_is_black(value)) {
-        c->books.surfaces += before;
+        photon_book(&c->books.surfaces, before);
         return false;
     }
     p->path.beta = rgb_mul(p->path.beta, rgb_scale(value, 1.0f / pdf));
-    c->books.surfaces += before - photon_power(p);
+    photon_book(&c->books.surfaces, before - photon_power(p));
     c->bounces++;
     path_turn(&p->path, surface_offset(at->p, at->ng), out, pdf);
     p->direct = 0;
@@ -302,7 +346,7 @@ HD bool photon_surface(const flat_scene *s, photon_state *p,
         if (p->light >= 0 && (s->shapes[h->shape].flags & SHAPE_NO_SHADOW))
             at.pass = rgb_gray(1.0f);
         bool passes = path_passes(&p->path, &at);
-        c->books.surfaces += before - photon_power(p);
+        photon_book(&c->books.surfaces, before - photon_power(p));
         if (!passes && p->direct && container_is_unbounded(s, h->shape)) {
             photon_end(p, &c->books.walls);
             return false;
@@ -319,7 +363,7 @@ HD bool photon_surface(const flat_scene *s, photon_state *p,
 HD bool photon_land(const flat_scene *s, photon_state *p, photon_counters *c,
                     const photon_flight *f)
 {
-    c->books.media += f->power - photon_power(p);
+    photon_book(&c->books.media, f->power - photon_power(p));
     if (++p->events > PHOTON_EVENTS) {
         photon_end(p, &c->books.dropped);
         return false;
@@ -362,7 +406,7 @@ HD bool photon_begin(const flat_scene *s, const photon_job *job,
     float scale = (float)(1.0 / (source->share * job->power));
     p->path.beta = rgb_scale(p->path.beta, scale);
     c->photons++;
-    c->books.emitted += photon_power(p);
+    photon_book(&c->books.emitted, photon_power(p));
     if (rgb_is_black(p->path.beta))
         return false;
     if (p->emission && s->field.births)

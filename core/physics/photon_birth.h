@@ -62,15 +62,32 @@ typedef struct {
     X(emitted) X(units)                                                       \
     X(media) X(surfaces) X(walls) X(escaped) X(roulette) X(dropped)
 
+/* On a GPU whole numbers, which any order adds up to the same. */
+#define PHOTON_BOOK_ONE 4294967296.0
+#ifdef __CUDACC__
+typedef int64_t photon_sum;
+#else
+typedef double photon_sum;
+#endif
+
+HD void photon_book(photon_sum *sum, double value)
+{
+#ifdef __CUDACC__
+    *sum += (int64_t)rint(value * PHOTON_BOOK_ONE);
+#else
+    *sum += value;
+#endif
+}
+
 typedef struct {
-#define X(name) double name;
+#define X(name) photon_sum name;
     PHOTON_BOOKS(X)
 #undef X
 } photon_books;
 
 typedef struct {
-    uint64_t photons, events, bounces;
-    uint64_t stored;        /* events and births, where balls gather them  */
+    track_count photons, events, bounces;
+    track_count stored;     /* events and births, where balls gather them  */
     photon_books books;
     radiance_tally tally;
     track_counters track;

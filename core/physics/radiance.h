@@ -159,12 +159,10 @@ typedef struct {
     int32_t cell[3];
 } radiance_walk;
 
-HD float radiance_plane(const radiance_walk *w, int axis)
+/* Distance at which an axis leaves a cell. */
+HD float radiance_plane(float o, float d, int32_t cell)
 {
-    if (w->d[axis] == 0.0f)
-        return INFINITY;
-    float plane = (float)(w->cell[axis] + (w->d[axis] > 0.0f));
-    return (plane - w->o[axis]) / w->d[axis];
+    return d == 0.0f ? INFINITY : ((float)(cell + (d > 0.0f)) - o) / d;
 }
 
 /* False where o + t d, t in [t0, t1], misses the lattice. */
@@ -193,25 +191,28 @@ HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
         int c = hd_floor(w->o[i] + w->t * w->d[i]);
         int last = 8 * f->bricks[i] - 1;
         w->cell[i] = c < 0 ? 0 : c > last ? last : c;
-        w->next[i] = radiance_plane(w, i);
+        w->next[i] = radiance_plane(w->o[i], w->d[i], w->cell[i]);
     }
     return true;
 }
 
-HD bool radiance_cross(const flat_scene *s, radiance_walk *w, int axis)
-{
-    w->cell[axis] += w->d[axis] > 0.0f ? 1 : -1;
-    w->next[axis] = radiance_plane(w, axis);
-    return w->cell[axis] >= 0 && w->cell[axis] < 8 * s->field.bricks[axis];
-}
-
-/* Goes to the next cell; false beyond the lattice. */
+/* Goes over the nearest plane to the next cell; false beyond the lattice.
+ * Chosen by values, not by ways: threads stay together. */
 HD bool radiance_step(const flat_scene *s, radiance_walk *w)
 {
     bool y = !(w->next[0] <= w->next[1]);
-    if (!((y ? w->next[1] : w->next[0]) <= w->next[2]))
-        return radiance_cross(s, w, 2);
-    return y ? radiance_cross(s, w, 1) : radiance_cross(s, w, 0);
+    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
+    int axis = z ? 2 : y ? 1 : 0;
+    float o = z ? w->o[2] : y ? w->o[1] : w->o[0];
+    float d = z ? w->d[2] : y ? w->d[1] : w->d[0];
+    int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
+                   (d > 0.0f ? 1 : -1);
+    float next = radiance_plane(o, d, cell);
+    for (int i = 0; i < 3; i++) {
+        w->cell[i] = i == axis ? cell : w->cell[i];
+        w->next[i] = i == axis ? next : w->next[i];
+    }
+    return cell >= 0 && cell < 8 * s->field.bricks[axis];
 }
 
 /* Lays what a walk crosses of its current cell, of a flight o + t d, d of unit

@@ -125,6 +125,20 @@ HD bool rng_depth_is_end(uint32_t x)
     return x < 0x10000u || x > 0xfffeffffu;
 }
 
+/* -log(h), or -log(1 - h) if that is asked for, as fm_log and fm_log1p have
+ * them, for h in (0, 1/2]: one logarithm, for which threads meet. */
+HD float rng_minus_log(float h, bool rest)
+{
+    int n;
+    float x = rest ? 1.0f - h : h, extra = 0.0f;
+    float f = fm_split(x, &n) - 1.0f;
+    if (rest && n == 0)
+        f = -h;
+    else if (rest)
+        extra = (-h - (x - 1.0f)) / x;
+    return -fm_log_reduced(f, n, extra);
+}
+
 /* The exponential variate of the 64-bit number x y / 2^64, y at the ends
  * only: fine near 0, and up to 45. */
 HD float rng_depth_of(uint32_t x, uint32_t y)
@@ -134,7 +148,7 @@ HD float rng_depth_of(uint32_t x, uint32_t y)
     float tail = rng_depth_is_end(x)
                ? ((float)near_y + 0.5f) * 2.32830644e-10f : 0.5f;
     float h = ((float)near_x + tail) * 2.32830644e-10f;
-    return near ? -fm_log1p(-h) : -fm_log(h);
+    return rng_minus_log(h, near);
 }
 
 /* Optical depth to the next collision, density exp(-tau). P(tau < t) and

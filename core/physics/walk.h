@@ -83,14 +83,10 @@ HD const flat_medium *walk_medium(const flat_scene *s, const media_walk *w,
     return &s->media[walk_part(w, i)->medium];
 }
 
-/* Distance at which the axis leaves its current cell. */
-HD float lattice_plane(const lattice_walk *w, int axis)
+/* Distance at which an axis leaves a cell. */
+HD float lattice_plane(float o, float d, int32_t cell)
 {
-    float d = vec3_get(w->d, axis);
-    if (d == 0.0f)
-        return INFINITY;
-    float plane = (float)(w->cell[axis] + (d > 0.0f));
-    return (plane - vec3_get(w->o, axis)) / d;
+    return d == 0.0f ? INFINITY : ((float)(cell + (d > 0.0f)) - o) / d;
 }
 
 HD float lattice_next(const lattice_walk *w)
@@ -123,7 +119,8 @@ HD void lattice_enter(const flat_scene *s, lattice_walk *w, float t)
         float x = vec3_get(w->o, axis) + t * vec3_get(w->d, axis);
         int c = hd_floor(hd_max(x, 0.0f));
         w->cell[axis] = c < m->cells[axis] ? c : m->cells[axis] - 1;
-        w->next[axis] = lattice_plane(w, axis);
+        w->next[axis] = lattice_plane(vec3_get(w->o, axis),
+                                      vec3_get(w->d, axis), w->cell[axis]);
     }
     lattice_load(s, w);
     w->t_end = hd_max(lattice_next(w), t);
@@ -171,12 +168,23 @@ HD void lattice_begin(const flat_scene *s, lattice_walk *w, int medium,
         lattice_outside(s, w, INFINITY);
 }
 
-/* Over the next plane of an axis; false: out of the lattice. */
-HD bool lattice_cross(lattice_walk *w, int axis, int32_t cells)
+/* Over the nearest plane; false: out of the lattice. Chosen by values, not by
+ * ways: threads stay together. */
+HD bool lattice_cross(lattice_walk *w, const int32_t *cells)
 {
-    w->cell[axis] += vec3_get(w->d, axis) > 0.0f ? 1 : -1;
-    w->next[axis] = lattice_plane(w, axis);
-    return w->cell[axis] >= 0 && w->cell[axis] < cells;
+    bool y = !(w->next[0] <= w->next[1]);
+    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
+    int axis = z ? 2 : y ? 1 : 0;
+    float o = z ? w->o.z : y ? w->o.y : w->o.x;
+    float d = z ? w->d.z : y ? w->d.y : w->d.x;
+    int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
+                   (d > 0.0f ? 1 : -1);
+    float next = lattice_plane(o, d, cell);
+    for (int i = 0; i < 3; i++) {
+        w->cell[i] = i == axis ? cell : w->cell[i];
+        w->next[i] = i == axis ? next : w->next[i];
+    }
+    return cell >= 0 && cell < cells[axis];
 }
 
 /* Goes on from the end of the current piece. */
@@ -191,12 +199,7 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
         lattice_outside(s, w, INFINITY);
         return;
     }
-    const int32_t *cells = s->media[w->medium].cells;
-    bool y = !(w->next[0] <= w->next[1]);
-    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
-    if (!(z ? lattice_cross(w, 2, cells[2])
-          : y ? lattice_cross(w, 1, cells[1])
-              : lattice_cross(w, 0, cells[0]))) {
+    if (!lattice_cross(w, s->media[w->medium].cells)) {
         lattice_outside(s, w, INFINITY);
         return;
     }
