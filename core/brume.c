@@ -247,6 +247,17 @@ int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,
     return id;
 }
 
+int brume_share_mesh(brume_scene *scene, struct mesh *mesh,
+                     struct brume_error *err)
+{
+    if (!mesh_check(mesh, err))
+        return -1;
+    int id = APPEND(scene, meshes, mesh, err);
+    if (id >= 0)
+        mesh_share(mesh);
+    return id;
+}
+
 int brume_add_grid(brume_scene *scene, const struct grid *grid,
                    struct brume_error *err)
 {
@@ -258,6 +269,18 @@ int brume_add_grid(brume_scene *scene, const struct grid *grid,
     int id = APPEND(scene, grids, copy, err);
     if (id < 0)
         grid_free(copy);
+    return id;
+}
+
+int brume_share_grid(brume_scene *scene, struct grid *grid,
+                     struct brume_error *err)
+{
+    const struct grid *own = grid;
+    if (!check_transform(own->to_world, "a grid", err))
+        return -1;
+    int id = APPEND(scene, grids, grid, err);
+    if (id >= 0)
+        grid_share(grid);
     return id;
 }
 

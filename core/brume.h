@@ -283,6 +283,10 @@ BRUME_API int brume_add_shape(brume_scene *scene,
                               struct brume_error *err);
 BRUME_API int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,
                              struct brume_error *err);
+/* The same without a copy: the scene takes a share, and the mesh must not be
+ * changed any more. A film knows it again by that from frame to frame. */
+BRUME_API int brume_share_mesh(brume_scene *scene, struct mesh *mesh,
+                               struct brume_error *err);
 
 /* ---- queries of shapes ------------------------------------------------- */
 /* Of any shape, part or not, in double. What they need is made at a shape's
@@ -308,6 +312,9 @@ BRUME_API bool brume_extent(brume_scene *scene, int shape, double lowest[3],
 
 BRUME_API int brume_add_grid(brume_scene *scene, const struct grid *grid,
                              struct brume_error *err);
+/* As brume_share_mesh. */
+BRUME_API int brume_share_grid(brume_scene *scene, struct grid *grid,
+                               struct brume_error *err);
 
 enum brume_field_kind { BRUME_FIELD_CONSTANT, BRUME_FIELD_GRID,
                         BRUME_FIELD_FUNCTION };

@@ -65,12 +65,18 @@ struct grid *grid_new(const int32_t origin[3], const int32_t bricks[3],
 
 void grid_free(struct grid *g)
 {
-    if (!g)
+    if (!g || __atomic_fetch_sub(&g->shares, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     free(g->voxel);
     free(g->tile);
     free(g->slot);
     free(g);
+}
+
+struct grid *grid_share(struct grid *g)
+{
+    __atomic_fetch_add(&g->shares, 1, __ATOMIC_RELAXED);
+    return g;
 }
 
 static size_t slot_index(const struct grid *g, int bx, int by, int bz)
@@ -355,6 +361,7 @@ struct grid *grid_copy(const struct grid *g, struct brume_error *err)
         return NULL;
     size_t slots = brick_count(g);
     *out = *g;
+    out->shares = 0;
     out->slot = copy_array(g->slot, slots, slots, sizeof *g->slot, err);
     out->tile = copy_array(g->tile, g->tiles, power_capacity(g->tiles),
                            sizeof *g->tile, err);

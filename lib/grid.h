@@ -39,13 +39,18 @@ struct grid {
     size_t points;          /* particles that it was made of, or 0         */
     float radius[2];        /* the least and the largest of their balls    */
     bool own_radii;         /* each particle had its own                   */
+    unsigned shares;        /* owners beside the first                     */
 };
 
 /* An empty grid of the given brick extent: every brick is tile 0, which is
  * `background`. NULL with err set where memory or the extent is too large. */
 struct grid *grid_new(const int32_t origin[3], const int32_t bricks[3],
                       float background, struct brume_error *err);
+/* Gives up a share; the last one frees it. */
 void grid_free(struct grid *g);
+/* One owner more, of any thread, to call grid_free too: from now on the grid
+ * must not be changed. */
+struct grid *grid_share(struct grid *g);
 struct grid *grid_copy(const struct grid *g, struct brume_error *err);
 
 /* The 512 samples of a brick, made (filled with its constant) if it was a

@@ -11,7 +11,7 @@ struct mesh *mesh_new(struct brume_error *err)
 
 void mesh_free(struct mesh *m)
 {
-    if (!m)
+    if (!m || __atomic_fetch_sub(&m->shares, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     free(m->position);
     free(m->normal);
@@ -20,6 +20,12 @@ void mesh_free(struct mesh *m)
     free(m->corner_normal);
     free(m->corner_uv);
     free(m);
+}
+
+struct mesh *mesh_share(struct mesh *m)
+{
+    __atomic_fetch_add(&m->shares, 1, __ATOMIC_RELAXED);
+    return m;
 }
 
 /* Room for one item more: the array, perhaps moved; NULL with err set. The
@@ -215,6 +221,7 @@ struct mesh *mesh_copy(const struct mesh *m, struct brume_error *err)
     if (!out)
         return NULL;
     *out = *m;
+    out->shares = 0;
 #define COPY(array, count)                                                     \
     out->array = copy_items(m->array, m->count, sizeof *m->array, &good, err)
     COPY(position, vertices);

@@ -15,10 +15,15 @@ struct mesh {
     uint32_t (*corner_normal)[3];   /* its normals; NULL: a flat mesh      */
     uint32_t (*corner_uv)[3];       /* its uvs; NULL: none                 */
     size_t vertex_capacity, normal_capacity, uv_capacity, triangle_capacity;
+    unsigned shares;            /* owners beside the first                 */
 };
 
 struct mesh *mesh_new(struct brume_error *err);
+/* Gives up a share; the last one frees it. */
 void mesh_free(struct mesh *m);
+/* One owner more, of any thread, to call mesh_free too: from now on the mesh
+ * must not be changed. */
+struct mesh *mesh_share(struct mesh *m);
 struct mesh *mesh_copy(const struct mesh *m, struct brume_error *err);
 
 /* Append one item and return true; false with err set when out of memory or

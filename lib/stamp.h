@@ -6,4 +6,8 @@
 
 /* The same file, of the same size and times of change. */
 bool stamp_is_same(const struct stat *a, const struct stat *b);
+
+/* Whether a change from now on would give the file another stamp: clocks of
+ * file systems tick a hundred times a second or more. */
+bool stamp_is_settled(const struct stat *now);
 #endif

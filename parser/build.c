@@ -741,8 +741,7 @@ void build_release(struct parser *parser)
     if (!builder)
         return;
     for (struct model_mesh *m = builder->meshes; m; m = m->next)
-        if (!m->kept)
-            mesh_free(m->mesh);
+        mesh_free(m->mesh);
     for (int i = 0; i < 3; i++)
         free(builder->indices[i].item);
     free(builder->number);

@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include "parser/parser.h"
 
+struct kept_mesh;
+
 /* A scene begins: makes parser->builder. False: no memory, reported. */
 bool build_begin(struct parser *parser);
 /* The text has ended: camera, globals and atmosphere go to the scene. */
@@ -81,6 +83,14 @@ struct value build_trace(struct parser *parser, const struct value *object,
                          const struct value *from,
                          const struct value *direction,
                          const struct name *normal, struct location at);
+
+/* Whether the statement that was just opened is a mesh or mesh2, which the
+ * following calls are about. */
+bool build_literal_begins(struct parser *parser);
+/* Its lists are taken over from the frame before, */
+void build_literal_take(struct parser *parser, const struct kept_mesh *kept);
+/* or were read, and are to be kept. */
+void build_literal_reached(struct parser *parser, struct kept_mesh *kept);
 
 /* A value that stands on its own in the scene: an object, light, camera or
  * atmosphere is added, others have no effect there. */

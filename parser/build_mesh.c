@@ -118,6 +118,7 @@ static void close_triangle(struct parser *parser, struct frame *frame,
                            struct location at)
 {
     bool smooth = frame->kind == BUILD_SMOOTH_TRIANGLE;
+    bool full = !frame->node && build_around(parser)->given & OBJECT_NAMED;
     const struct object *object = frame->node ? frame->node
                                               : build_around(parser)->node;
     struct brume_error err = {0};
@@ -125,6 +126,10 @@ static void close_triangle(struct parser *parser, struct frame *frame,
     enum { BYTES = 150 }; /* three vertices and indices, as arrays grow */
 
     parser_hold(parser, at, BYTES);
+    if (full)
+        parser_mistake(parser, frame->at, "a mesh takes triangles or one mesh");
+    if (full || !build_literal_own(parser, object->mesh, at))
+        return;
     if (!add_triangle(parser->builder, object->mesh->mesh, smooth, &err))
         parser_relay(parser, at, &err);
 }
@@ -226,6 +231,8 @@ const struct statement build_statement_smooth_triangle = {
 static void open_mesh(struct parser *parser, struct frame *frame)
 {
     build_mesh_open(parser, frame, "mesh");
+    parser->builder->begun = frame->node;
+    frame->more = parser->builder->begun->mesh;
 }
 
 void build_mesh_set(struct parser *parser, struct frame *frame,
@@ -278,6 +285,7 @@ static void apply_mesh(struct parser *parser, struct frame *frame,
     } else {
         /* `mesh { IDENTIFIER ... }` */
         *mesh = *named;
+        frame->given |= OBJECT_NAMED;
         mesh->texture.owned = false;
         mesh->query = 0;
         mesh->at = frame->at;
@@ -293,6 +301,10 @@ static void close_mesh(struct parser *parser, struct frame *frame,
     (void)at;
     if (mesh && mesh->triangles == 0)
         parser_error(parser, frame->at, "this mesh has no triangles");
+    parser->out->counts.meshes_read += object->mesh == frame->more &&
+                                       !object->mesh->taken;
+    if (mesh && build_literal_is_whole(parser, object->mesh))
+        build_literal_keep(parser, object->mesh, false);
 }
 
 const struct statement build_statement_mesh = {

@@ -9,9 +9,13 @@ enum { LIST_FACES, LIST_NORMALS, LIST_UVS };
 
 static void open_list(struct parser *parser, struct frame *frame)
 {
-    frame->node = build_around(parser)->node;
+    struct object *object = build_around(parser)->node;
+
+    frame->node = object;
     parser->builder->announced = -1;
     parser->builder->listed = 0;
+    if (object->mesh)
+        build_literal_own(parser, object->mesh, frame->at);
 }
 
 /* The first number of a list says how many items follow. */
@@ -188,6 +192,7 @@ static void open_mesh2(struct parser *parser, struct frame *frame)
     for (int i = 0; i < 3; i++)
         parser->builder->indices[i].count = 0;
     build_mesh_open(parser, frame, "mesh2");
+    parser->builder->begun = frame->node;
 }
 
 /* Without indices of their own, as many normals or uvs as vertices go with
@@ -259,10 +264,16 @@ static void close_mesh2(struct parser *parser, struct frame *frame,
     struct brume_error err = {0};
 
     (void)at;
+    if (object->mesh->taken)
+        return;
+    parser->out->counts.meshes_read++;
+    bool whole = build_literal_is_whole(parser, object->mesh);
     if (!check_counts(parser, mesh, frame->at))
         return;
     if (!make_triangles(parser->builder, mesh, &err) || !mesh_check(mesh, &err))
         parser_relay(parser, frame->at, &err);
+    else if (whole)
+        build_literal_keep(parser, object->mesh, true);
 }
 
 const struct statement build_statement_mesh2 = {

@@ -33,14 +33,13 @@ struct placing {
     size_t first, clips; /* of builder.part: its parts, its clips   */
 };
 
-/* Core copies a mesh, so ours goes when its first user is placed. */
+/* Core shares a mesh, so ours goes when its first user is placed. */
 static int send_mesh(struct parser *parser, struct model_mesh *mesh,
                      struct brume_error *err)
 {
     if (mesh->id < 0) {
-        mesh->id = brume_add_mesh(parser->out->scene, mesh->mesh, err);
-        if (!mesh->kept)
-            mesh_free(mesh->mesh);
+        mesh->id = brume_share_mesh(parser->out->scene, mesh->mesh, err);
+        mesh_free(mesh->mesh);
         mesh->mesh = NULL;
     }
     return mesh->id;

@@ -284,6 +284,8 @@ struct builder {
     int uvs;                        /* 3 where it has them                 */
     struct index_list indices[3];   /* of the open mesh2: faces, normals,
                                        uvs                                 */
+    struct object *begun;           /* mesh that was opened just now       */
+    struct object *literal;         /* mesh whose lists are kept           */
     int64_t announced, listed;      /* items of its open list              */
     struct intern intern[4];        /* what core has: see build_send.c     */
     struct intern functions;        /* and build_function.c                */
@@ -448,6 +450,17 @@ int build_pigment_function(struct parser *parser,
 /* What mesh and mesh2 have in common. */
 void build_mesh_open(struct parser *parser, struct frame *frame,
                      const char *word);
+/* Before a mesh is closed: whether it is what is spelt out in its text and
+ * nothing else. */
+bool build_literal_is_whole(const struct parser *parser,
+                            const struct model_mesh *mesh);
+/* It is closed, and sound. `lists`: it is a mesh2. */
+void build_literal_keep(const struct parser *parser, struct model_mesh *mesh,
+                        bool lists);
+/* Before something is added to a mesh: it shares none any more. False:
+ * reported. */
+bool build_literal_own(struct parser *parser, struct model_mesh *mesh,
+                       struct location at);
 void build_mesh_set(struct parser *parser, struct frame *frame,
                     const struct param *row, struct location at);
 bool build_mesh_normal(struct mesh *mesh, const double n[3],

@@ -16,11 +16,22 @@ struct entry {
 
 struct parse_cache {
     struct entry *entry;
+    struct kept kept;
 };
 
 struct parse_cache *parse_cache_new(struct brume_error *err)
 {
-    return memory_new(1, sizeof(struct parse_cache), err);
+    struct parse_cache *cache = memory_new(1, sizeof *cache, err);
+    if (!cache)
+        return NULL;
+    arena_init(&cache->kept.arena, 0);
+    cache->kept.names.arena = &cache->kept.arena;
+    return cache;
+}
+
+struct kept *cache_kept(struct parse_cache *cache)
+{
+    return cache ? &cache->kept : NULL;
 }
 
 static void free_entry(struct entry *e)
@@ -49,21 +60,28 @@ static void drop(struct parse_cache *cache, bool all)
 
 void parse_cache_free(struct parse_cache *cache)
 {
-    if (cache)
-        drop(cache, true);
+    if (!cache)
+        return;
+    drop(cache, true);
+    kept_release(&cache->kept);
     free(cache);
 }
 
 void cache_begin(struct parse_cache *cache)
 {
-    for (struct entry *e = cache ? cache->entry : NULL; e; e = e->next)
+    if (!cache)
+        return;
+    for (struct entry *e = cache->entry; e; e = e->next)
         e->used = false;
+    kept_begin(&cache->kept);
 }
 
 void cache_end(struct parse_cache *cache)
 {
-    if (cache)
-        drop(cache, false);
+    if (!cache)
+        return;
+    drop(cache, false);
+    kept_end(&cache->kept);
 }
 
 void *cache_find(struct parse_cache *cache, const char *path, const char *key)
@@ -85,7 +103,8 @@ bool cache_put(struct parse_cache *cache, const char *path, const char *key,
 {
     struct stat now;
     struct entry *e = NULL;
-    if (cache && stat(path, &now) == 0 && S_ISREG(now.st_mode))
+    if (cache && stat(path, &now) == 0 && S_ISREG(now.st_mode) &&
+        stamp_is_settled(&now))
         e = memory_new(1, sizeof *e, NULL);
     if (!e)
         return false;

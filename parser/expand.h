@@ -173,6 +173,8 @@ static inline bool expand_tick(struct expander *expander, struct location at)
     return ++expander->ticks % CHECK != 0 || expand_may_go_on(expander, at);
 }
 
+/* Pushes what comes next. False: reported. */
+bool expand_step(struct expander *expander);
 /* Takes the next token if it is of that kind. */
 bool expand_take(struct expander *expander, int kind);
 /* Takes the next token, which must be of that kind. */

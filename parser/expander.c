@@ -1,6 +1,7 @@
 #include "parser/expand.h"
 #include "lib/timer.h"
 #include "parser/build.h"
+#include "parser/literal.h"
 #include "parser/report.h"
 #include "parser/scalar.h"
 #include <ctype.h>
@@ -265,6 +266,9 @@ static bool push(struct expander *expander, int kind,
     count_brackets(pending, kind);
     pending->last = kind;
     int status = scene_yypush_parse(pending->state, kind, meaning, &at, parser);
+    if (kind == '{' && parser->in->cache && build_literal_begins(parser)) {
+        return literal_run(expander);
+    }
     if (parser->failed || status == YYPUSH_MORE) {
         return !parser->failed;
     }
@@ -664,7 +668,7 @@ static bool take_run(struct expander *expander, bool *going)
     return false;
 }
 
-static bool step(struct expander *expander)
+bool expand_step(struct expander *expander)
 {
     const struct pending *pending = innermost(expander);
     bool going;
@@ -718,7 +722,7 @@ bool expander_run(struct parser *parser)
     parser->expander = &expander;
     bool going = enter_scene(&expander);
     while (going && expander.pendings > 0) {
-        going = step(&expander) || recover_after_error(&expander);
+        going = expand_step(&expander) || recover_after_error(&expander);
     }
     release(&expander);
     parser->expander = NULL;

@@ -8,8 +8,9 @@ struct lexer;
 
 /* Begins to scan source->text, which must have two NULs behind its `length`
  * bytes. Several may scan a text in turns. NULL: no memory or too large,
- * reported. */
-struct lexer *lexer_open(struct parser *parser, struct source *source);
+ * reported. What tokens point at lies in the arena. */
+struct lexer *lexer_open(struct parser *parser, struct source *source,
+                         struct arena *arena);
 void lexer_close(struct lexer *lexer);
 
 /* Scans the next tokens, at most `room` and none behind TOK_END, and returns

@@ -283,12 +283,11 @@ static bool send_grid(struct parser *parser, const struct data_file *file,
 {
     struct brume_error err = {0};
 
-    grid->filter = out->filter;
     warn_of_bad(parser, file, grid);
     if (is_particles(file))
         warn_of_particles(parser, file, grid);
     find_fit(grid, out);
-    out->id = brume_add_grid(parser->out->scene, grid, &err);
+    out->id = brume_share_grid(parser->out->scene, grid, &err);
     return out->id >= 0 || parser_relay(parser, file->at, &err);
 }
 
@@ -297,10 +296,10 @@ static void release_grid(void *grid)
     grid_free(grid);
 }
 
-/* From the cache, or from the file; *kept: the cache has it. */
+/* A share of the cache's, or from the file. */
 static struct grid *read_grid(struct parser *parser,
                               const struct data_file *file,
-                              const struct loaded_grid *as, bool *kept,
+                              const struct loaded_grid *as,
                               struct brume_error *err)
 {
     struct parse_cache *cache = parser->in->cache;
@@ -308,11 +307,13 @@ static struct grid *read_grid(struct parser *parser,
     snprintf(key, sizeof key, "%s %s %d %.17g %.17g %d", file->format, as->name,
              (int)as->filter, as->radius, as->voxel, as->neighbors);
     struct grid *grid = cache_find(cache, as->path, key);
-    *kept = grid != NULL;
     if (grid)
-        return grid;
+        return grid_share(grid);
     grid = format_of(file)->load(file, as->path, as->name, as->filter, err);
-    *kept = grid && cache_put(cache, as->path, key, grid, release_grid);
+    if (grid)
+        grid->filter = as->filter;
+    if (grid && cache_put(cache, as->path, key, grid, release_grid))
+        grid_share(grid);
     return grid;
 }
 
@@ -332,15 +333,13 @@ static struct loaded_grid *load_grid(struct parser *parser,
     out->radius = file->radius;
     out->neighbors = file->neighbors;
     out->voxel = file->voxel;
-    bool kept;
-    struct grid *grid = read_grid(parser, file, out, &kept, &err);
+    struct grid *grid = read_grid(parser, file, out, &err);
     if (!grid) {
         parser_relay(parser, file->at, &err);
         return NULL;
     }
     bool sent = send_grid(parser, file, grid, out);
-    if (!kept)
-        grid_free(grid);
+    grid_free(grid);
     if (!sent)
         return NULL;
     out->next = parser->builder->loader.grids;
@@ -398,8 +397,28 @@ static void release_mesh(void *mesh)
     mesh_free(mesh);
 }
 
+/* A share of the cache's, or from the file. */
+static struct mesh *read_mesh(struct parser *parser,
+                              const struct data_file *file, const char *path,
+                              struct brume_error *err)
+{
+    struct parse_cache *cache = parser->in->cache;
+    struct mesh *mesh = cache_find(cache, path, file->format);
+
+    if (mesh) {
+        parser->out->counts.meshes_kept++;
+        return mesh_share(mesh);
+    }
+    parser->out->counts.meshes_read++;
+    mesh = !strcmp(file->format, "ply") ? ply_load(path, err)
+                                        : obj_load(path, err);
+    if (mesh && cache_put(cache, path, file->format, mesh, release_mesh))
+        mesh_share(mesh);
+    return mesh;
+}
+
 static struct model_mesh *
-read_mesh(struct parser *parser, const struct data_file *file, const char *path)
+take_mesh(struct parser *parser, const struct data_file *file, const char *path)
 {
     struct model_mesh *out = parser_alloc(parser, sizeof *out);
     struct brume_error err = {0};
@@ -407,15 +426,7 @@ read_mesh(struct parser *parser, const struct data_file *file, const char *path)
     if (!out)
         return NULL;
     out->id = -1;
-    out->mesh = cache_find(parser->in->cache, path, file->format);
-    out->kept = out->mesh != NULL;
-    if (!out->mesh) {
-        out->mesh = !strcmp(file->format, "ply") ? ply_load(path, &err)
-                                                 : obj_load(path, &err);
-        out->kept = out->mesh &&
-                    cache_put(parser->in->cache, path, file->format, out->mesh,
-                              release_mesh);
-    }
+    out->mesh = read_mesh(parser, file, path, &err);
     if (!out->mesh) {
         parser_relay(parser, file->at, &err);
         return NULL;
@@ -437,7 +448,7 @@ struct model_mesh *load_mesh(struct parser *parser,
     for (; known; known = known->next)
         if (!strcmp(known->path, path))
             return known->mesh;
-    struct model_mesh *mesh = read_mesh(parser, file, path);
+    struct model_mesh *mesh = take_mesh(parser, file, path);
     struct loaded_mesh *entry = parser_alloc(parser, sizeof *entry);
     if (!mesh || !entry)
         return NULL;

@@ -91,10 +91,16 @@ struct material {
     struct placed_interior interior;
 };
 
+struct kept_mesh;
+
+enum { MODEL_LISTS = 7 };
+
 /* Read from a file or from triangles; given to core when first placed. */
 struct model_mesh {
     struct mesh *mesh;              /* freed once core has it              */
-    bool kept;                      /* by the cache, which frees it        */
+    struct kept_mesh *literal;      /* that it begins as, to be kept;      */
+    size_t listed[MODEL_LISTS];     /* items that there were at its end    */
+    const struct kept_mesh *taken;  /* that it was taken from, and shares  */
     int id;                         /* in core, or -1                      */
     struct model_mesh *next;        /* of all meshes of the scene          */
 };

@@ -151,9 +151,16 @@ static struct parse_limits limits_of(const struct parse_input *in)
     return limits;
 }
 
+static struct name_table *kept_names(const struct parser *parser)
+{
+    struct kept *kept = cache_kept(parser->in->cache);
+    return kept ? &kept->names : NULL;
+}
+
 static bool read_scene(struct parser *parser)
 {
-    return (symbols_init(&parser->symbols, &parser->arena) ||
+    return (symbols_init(&parser->symbols, &parser->arena,
+                         kept_names(parser)) ||
             report_no_memory(parser)) &&
            predeclare_floats(parser) && predeclare_vectors(parser) &&
            predeclare_given(parser) && build_begin(parser) &&

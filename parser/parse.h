@@ -110,6 +110,12 @@ struct parse_input {
     void *user;
 };
 
+/* How many texts and meshes were read, and how many a film had from the frame
+ * before. */
+struct parse_counts {
+    uint64_t texts_read, texts_kept, meshes_read, meshes_kept;
+};
+
 /* What the scene says of its own rendering; the command line overrides it. */
 struct parse_result {
     brume_scene *scene;         /* the caller frees it                     */
@@ -120,6 +126,7 @@ struct parse_result {
     struct brume_photon_options photons;
     double accuracy;            /* 0: not given; estimated relative error  */
     double time_limit;          /* seconds, 0: not given                   */
+    struct parse_counts counts;
 };
 
 /* False: `diag` holds an error whose code is the exit code, and out->scene is

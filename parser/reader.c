@@ -3,6 +3,7 @@
 #include "parser/block.h"
 #include "parser/data.h"
 #include "parser/grammar.h"
+#include "parser/kept.h"
 #include "parser/lexer.h"
 #include "parser/report.h"
 #include <stdlib.h>
@@ -102,6 +103,21 @@ static bool is_complete(const struct reader *reader, const struct chunk *chunk)
                                reader->linker.count == 0 && may_end(last));
 }
 
+static bool fill_chunk(struct reader *reader, struct chunk *chunk)
+{
+    chunk->text = reader->source->text;
+    chunk->tokens = 0;
+    do {
+        if (!scan_piece(reader, chunk)) {
+            return false;
+        }
+    } while (!is_complete(reader, chunk));
+    if (chunk->token[chunk->tokens - 1].kind != TOK_END) {
+        chunk->token[chunk->tokens++] = (struct token){.kind = TOK_MORE};
+    }
+    return true;
+}
+
 /* The reader's next chunk; NULL: reported. */
 static struct chunk *scan_chunk(struct reader *reader)
 {
@@ -110,17 +126,39 @@ static struct chunk *scan_chunk(struct reader *reader)
         return NULL;
     }
     reader->chunk = chunk;
-    chunk->text = reader->source->text;
-    chunk->tokens = 0;
-    do {
-        if (!scan_piece(reader, chunk)) {
-            return NULL;
+    return fill_chunk(reader, chunk) ? chunk : NULL;
+}
+
+/* ---- texts that are kept ----------------------------------------------- */
+
+/* A quarter of what the front end may hold goes to tokens that are kept. */
+static bool is_affordable(const struct parser *parser,
+                          const struct kept_text *kept)
+{
+    size_t most = parser->limits.memory / 4;
+    return most == 0 || kept->bytes <= most;
+}
+
+/* Scans a text to its end, or as far as there is room. False: reported. */
+static bool scan_ahead(struct reader *reader, struct kept_text *kept)
+{
+    struct chunk *chunk = NULL;
+    kept->tried = true;
+    while (is_affordable(reader->parser, kept)) {
+        chunk = kept_chunk(kept, chunk);
+        if (!chunk) {
+            return report_no_memory(reader->parser);
         }
-    } while (!is_complete(reader, chunk));
-    if (chunk->token[chunk->tokens - 1].kind != TOK_END) {
-        chunk->token[chunk->tokens++] = (struct token){.kind = TOK_MORE};
+        if (!fill_chunk(reader, chunk)) {
+            return false;
+        }
+        kept->bytes += chunk->room * sizeof *chunk->token;
+        if (chunk->token[chunk->tokens - 1].kind == TOK_END) {
+            kept->scanned = true;
+            return true;
+        }
     }
-    return chunk;
+    return true;
 }
 
 /* ---- readers ----------------------------------------------------------- */
@@ -133,6 +171,31 @@ static void release(struct reader *reader)
     free(reader->linker.open);
     reader->lexer = NULL;
     reader->linker = (struct linker){0};
+}
+
+/* Of a text that is kept: its own chunks, and those behind them that there was
+ * no room for. NULL: reported. */
+static struct chunk *first_chunk(struct reader *reader)
+{
+    struct parser *parser = reader->parser;
+    struct kept_text *kept = reader->source->kept;
+    if (kept && kept->scanned) {
+        return reader->chunk = kept->chunk;
+    }
+    bool ahead = kept && !kept->tried;
+    reader->lexer = lexer_open(parser, reader->source,
+                               ahead ? &kept->arena : &parser->arena);
+    if (!reader->lexer) {
+        return NULL;
+    }
+    parser->out->counts.texts_read++;
+    if (!ahead) {
+        return scan_chunk(reader);
+    }
+    if (!scan_ahead(reader, kept)) {
+        return NULL;
+    }
+    return kept->chunk ? reader->chunk = kept->chunk : scan_chunk(reader);
 }
 
 bool reader_open(struct parser *parser, struct source *source,
@@ -149,9 +212,8 @@ bool reader_open(struct parser *parser, struct source *source,
     *reader = (struct reader){
         .parser = parser, .source = source, .next = parser->readers};
     parser->readers = reader;
-    reader->lexer = lexer_open(parser, source);
     cursor->reader = reader;
-    cursor->chunk = reader->lexer ? scan_chunk(reader) : NULL;
+    cursor->chunk = first_chunk(reader);
     if (!cursor->chunk) {
         return false;
     }
@@ -191,7 +253,11 @@ static struct token *go_on(struct cursor *cursor)
 {
     struct reader *reader = cursor->reader;
     give_chunk(reader->parser, cursor->chunk);
-    struct chunk *chunk = scan_chunk(reader);
+    struct chunk *chunk = cursor->chunk->after;
+    reader->chunk = chunk;
+    if (!chunk) {
+        chunk = scan_chunk(reader);
+    }
     if (!chunk) {
         cursor->token = (struct token){.kind = TOK_END};
         return &cursor->token;

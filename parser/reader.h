@@ -19,6 +19,9 @@ struct chunk {
     bool kept;                  /* must not be overwritten                 */
     struct chunk *next;         /* of all those of the parser              */
     struct chunk *spare;        /* of those that may be overwritten        */
+    struct kept_text *of;       /* that has it, or NULL; then              */
+    struct chunk *after;        /* the text's next                         */
+    struct kept_mesh *mesh, *mesh_last, *mesh_hint;
 };
 
 struct reader;

@@ -198,6 +198,7 @@ static bool read_scene(struct reel *reel, int number,
     double start = timer_seconds();
     bool ok = parse_scene(&in, result, diag);
     record->seconds_parse = timer_seconds() - start;
+    record->parsed = result->counts;
     return ok;
 }
 

@@ -21,6 +21,7 @@ struct reel_record {
     const char *picture;        /* its file, "-", or NULL: none            */
     struct brume_stats stats;
     double seconds_parse, seconds_write;
+    struct parse_counts parsed;
 };
 
 /* All but `in` and `out` are given `user`. */

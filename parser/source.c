@@ -1,5 +1,7 @@
 #include "parser/source.h"
 #include "lib/memory.h"
+#include "lib/stamp.h"
+#include "parser/cache.h"
 #include "parser/origins.h"
 #include "parser/permit.h"
 #include "parser/report.h"
@@ -49,7 +51,9 @@ static struct source *add(struct parser *parser, struct location at,
 void source_release(struct parser *parser)
 {
     for (size_t i = 0; i < parser->sources; i++) {
-        free(parser->source[i]->text);
+        if (!parser->source[i]->kept) {
+            free(parser->source[i]->text);
+        }
     }
     parser->sources = 0;
 }
@@ -128,9 +132,66 @@ static bool read_file(struct parser *parser, struct location at,
     return done;
 }
 
+/* ---- texts that are kept ----------------------------------------------- */
+
+static bool borrow(struct parser *parser, struct location at,
+                   struct source *source, struct kept_text *kept)
+{
+    source->kept = kept;
+    source->text = kept->text;
+    source->length = kept->length;
+    source->room = kept->room;
+    parser->source_bytes += kept->bytes;
+    kept_label(kept, source->id);
+    parser->out->counts.texts_kept += kept->scanned;
+    return source_fits(parser, at);
+}
+
+/* Hands a text that was read over to the cache, if that has memory for it. */
+static void lend(struct kept *cache, struct source *source,
+                 const struct stat *was, const char *given)
+{
+    source->kept = kept_add(cache, source->real, was, given, source->text,
+                            source->length, source->room);
+    if (source->kept)
+        source->kept->source = source->id;
+}
+
+/* As read_file; where a film has the file as it is now, without reading. */
+static bool read_or_borrow(struct parser *parser, struct location at,
+                           struct source *source, int file)
+{
+    struct kept *cache = cache_kept(parser->in->cache);
+    struct stat was, now;
+    bool regular = cache && source->real && file >= 0 &&
+                   fstat(file, &was) == 0 && S_ISREG(was.st_mode);
+    bool settled = regular && stamp_is_settled(&was);
+    struct kept_text *kept = regular ? kept_find(cache, source->real, &was)
+                                     : NULL;
+    if (kept) {
+        close(file);
+        return borrow(parser, at, source, kept);
+    }
+    if (!settled) {
+        return read_file(parser, at, source, file);
+    }
+    bool done = read_all(parser, at, source, file);
+    if (done && fstat(file, &now) == 0 && stamp_is_same(&was, &now)) {
+        lend(cache, source, &was, NULL);
+    }
+    close(file);
+    return done;
+}
+
 static bool copy_text(struct parser *parser, struct source *source)
 {
     struct location at = {0, source->id};
+    struct kept *cache = cache_kept(parser->in->cache);
+    struct kept_text *kept = cache ? kept_find_given(cache, parser->in->text)
+                                   : NULL;
+    if (kept) {
+        return borrow(parser, at, source, kept);
+    }
     if (!make_room(parser, at, source, parser->in->length)) {
         return false;
     }
@@ -139,6 +200,9 @@ static bool copy_text(struct parser *parser, struct source *source)
         memcpy(source->text, parser->in->text, source->length);
     }
     memset(source->text + source->length, 0, PAD);
+    if (cache) {
+        lend(cache, source, NULL, parser->in->text);
+    }
     return true;
 }
 
@@ -169,12 +233,12 @@ static struct source *open_named(
         return source;
     }
     source = add(parser, at, path);
-    if (!source ||
-        !read_file(parser, at, source, open_file(parser, at, path))) {
+    int file = source ? open_file(parser, at, path) : -1;
+    if (file < 0) {
         return NULL;
     }
     source->real = real;
-    return source;
+    return read_or_borrow(parser, at, source, file) ? source : NULL;
 }
 
 struct source *source_open(struct parser *parser, struct location at,

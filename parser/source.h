@@ -14,6 +14,7 @@ struct source {
     size_t length, room;
     bool data;              /* read by #read: its tokens are not kept      */
     bool idle;              /* data that is not read from any more         */
+    struct kept_text *kept; /* has text and tokens, or NULL                */
     struct chunk *whole;    /* all its tokens, or NULL: see reader.h       */
 };
 

@@ -34,6 +34,16 @@ static bool put_seconds(struct json *json, const struct reel_record *r)
     return json_put(json, "seconds", seconds) && ok;
 }
 
+static bool put_parsed(struct json *json, const struct parse_counts *c)
+{
+    struct json *out = json_new_object();
+    bool ok = json_put_count(out, "texts_read", c->texts_read) &&
+              json_put_count(out, "texts_kept", c->texts_kept) &&
+              json_put_count(out, "meshes_read", c->meshes_read) &&
+              json_put_count(out, "meshes_kept", c->meshes_kept);
+    return json_put(json, "parsed", out) && ok;
+}
+
 static bool put_counts(struct json *json, const struct brume_stats *s)
 {
     return json_put_text(json, "backend", s->backend) &&
@@ -86,6 +96,7 @@ static struct json *frame_json(const struct reel_record *r)
               json_put_number(json, "clock", r->clock) &&
               (!r->picture || json_put_text(json, "picture", r->picture)) &&
               put_counts(json, &r->stats) && put_seconds(json, r) &&
+              put_parsed(json, &r->parsed) &&
               (r->stats.photons.traced == 0 ||
                put_photons(json, &r->stats.photons));
     if (ok)

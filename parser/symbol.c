@@ -15,15 +15,15 @@ static uint32_t hash_word(const char *text, size_t length)
 }
 
 /* Twice as many buckets; without memory the old ones serve on. */
-static void grow_buckets(struct symbols *symbols)
+static void grow_buckets(struct name_table *table)
 {
-    size_t count = symbols->buckets * 2;
-    struct name **bucket = arena_array(symbols->arena, count, sizeof *bucket);
+    size_t count = table->buckets * 2;
+    struct name **bucket = arena_array(table->arena, count, sizeof *bucket);
     if (!bucket) {
         return;
     }
-    for (size_t i = 0; i < symbols->buckets; i++) {
-        struct name *name = symbols->bucket[i];
+    for (size_t i = 0; i < table->buckets; i++) {
+        struct name *name = table->bucket[i];
         while (name) {
             struct name *next = name->chain;
             struct name **slot = &bucket[name->hash & (count - 1)];
@@ -32,21 +32,21 @@ static void grow_buckets(struct symbols *symbols)
             name = next;
         }
     }
-    symbols->bucket = bucket;
-    symbols->buckets = count;
+    table->bucket = bucket;
+    table->buckets = count;
 }
 
-static struct name *add_name(struct symbols *symbols, const char *text,
+static struct name *add_name(struct name_table *table, const char *text,
                              size_t length, uint32_t hash)
 {
-    struct name *name = arena_alloc(symbols->arena, sizeof *name + length + 1);
+    struct name *name = arena_alloc(table->arena, sizeof *name + length + 1);
     if (!name) {
         return NULL;
     }
-    if (symbols->names++ > symbols->buckets) {
-        grow_buckets(symbols);
+    if (table->names++ > table->buckets) {
+        grow_buckets(table);
     }
-    struct name **slot = &symbols->bucket[hash & (symbols->buckets - 1)];
+    struct name **slot = &table->bucket[hash & (table->buckets - 1)];
     name->chain = *slot;
     name->hash = hash;
     name->length = (uint32_t)length;
@@ -55,37 +55,69 @@ static struct name *add_name(struct symbols *symbols, const char *text,
     return name;
 }
 
-struct name *symbols_name(struct symbols *symbols, const char *text,
-                          size_t length)
+static struct name *find_name(struct name_table *table, const char *text,
+                              size_t length)
 {
     uint32_t hash = hash_word(text, length);
-    struct name *name = symbols->bucket[hash & (symbols->buckets - 1)];
+    struct name *name = table->bucket[hash & (table->buckets - 1)];
     while (name && (name->hash != hash || name->length != length ||
                     memcmp(name->text, text, length) != 0)) {
         name = name->chain;
     }
-    return name ? name : add_name(symbols, text, length, hash);
+    return name ? name : add_name(table, text, length, hash);
 }
 
-bool symbols_init(struct symbols *symbols, struct arena *arena)
+struct name *symbols_name(struct symbols *symbols, const char *text,
+                          size_t length)
 {
-    enum { BUCKETS = 2048 };
-    *symbols = (struct symbols){.arena = arena, .buckets = BUCKETS};
-    symbols->bucket = arena_array(arena, BUCKETS, sizeof *symbols->bucket);
-    if (!symbols->bucket ||
-        !arena_grow(arena, &symbols->scope, &symbols->scope_room, 1,
-                    sizeof(struct symbol *))) {
-        return false;
-    }
+    return find_name(symbols->table, text, length);
+}
+
+static bool add_keywords(struct name_table *table)
+{
     for (int i = 0; i < keyword_count; i++) {
         const struct keyword *row = &keyword_table[i];
-        struct name *name = symbols_name(symbols, row->word, strlen(row->word));
+        struct name *name = find_name(table, row->word, strlen(row->word));
         if (!name) {
             return false;
         }
         name->keyword = row;
     }
     return true;
+}
+
+static bool init_table(struct name_table *table)
+{
+    enum { BUCKETS = 2048 };
+    table->buckets = BUCKETS;
+    table->bucket = arena_array(table->arena, BUCKETS, sizeof *table->bucket);
+    return table->bucket && add_keywords(table);
+}
+
+/* What the names of the last scene stood for is gone. */
+static void clear_table(struct name_table *table)
+{
+    for (size_t i = 0; i < table->buckets; i++) {
+        for (struct name *n = table->bucket[i]; n; n = n->chain) {
+            n->symbol = NULL;
+            n->reported = false;
+        }
+    }
+}
+
+bool symbols_init(struct symbols *symbols, struct arena *arena,
+                  struct name_table *kept)
+{
+    *symbols = (struct symbols){.arena = arena, .own = {.arena = arena}};
+    symbols->table = kept ? kept : &symbols->own;
+    if (symbols->table->bucket) {
+        clear_table(symbols->table);
+    } else if (!init_table(symbols->table)) {
+        symbols->table->bucket = NULL;
+        return false;
+    }
+    return arena_grow(arena, &symbols->scope, &symbols->scope_room, 1,
+                      sizeof(struct symbol *));
 }
 
 /* ---- scopes ------------------------------------------------------------ */
@@ -197,8 +229,8 @@ const char *symbols_suggest(const struct symbols *symbols,
 {
     size_t bound = name->length < 12 ? (name->length + 1) / 4 : 3;
     const struct name *best = NULL;
-    for (size_t i = 0; i < symbols->buckets; i++) {
-        for (struct name *n = symbols->bucket[i]; n; n = n->chain) {
+    for (size_t i = 0; i < symbols->table->buckets; i++) {
+        for (struct name *n = symbols->table->bucket[i]; n; n = n->chain) {
             if (n == name || (!n->keyword && !symbols_find(n))) {
                 continue;
             }

@@ -43,18 +43,26 @@ struct symbol {
     struct value value;
 };
 
-struct symbols {
+struct name_table {
     struct arena *arena;
     struct name **bucket;
     size_t buckets, names;
+};
+
+struct symbols {
+    struct arena *arena;
+    struct name_table *table;       /* `own`, or one that is kept          */
+    struct name_table own;
     struct symbol *spare;
     void *scope;                    /* newest symbol of each level         */
     size_t scope_room;
     uint32_t level;
 };
 
-/* False: no memory. */
-bool symbols_init(struct symbols *symbols, struct arena *arena);
+/* Names lie in `kept` where there is one, whose arena is set, and nothing is
+ * declared. False: no memory. */
+bool symbols_init(struct symbols *symbols, struct arena *arena,
+                  struct name_table *kept);
 
 /* The one `struct name` of a word; NULL: no memory. */
 struct name *symbols_name(struct symbols *symbols, const char *text,

@@ -179,6 +179,12 @@ int brume_add_mesh(brume_scene *scene, const struct mesh *mesh,
     FAKE_ADD(mesh, meshes, fake_mesh_of(mesh), "mesh");
 }
 
+int brume_share_mesh(brume_scene *scene, struct mesh *mesh,
+                     struct brume_error *err)
+{
+    return brume_add_mesh(scene, mesh, err);
+}
+
 static struct fake_grid fake_grid_of(const struct grid *grid)
 {
     struct fake_grid out = {{0}, grid->filter, grid->bad_nan + grid->bad_inf +
@@ -192,6 +198,12 @@ int brume_add_grid(brume_scene *scene, const struct grid *grid,
                    struct brume_error *err)
 {
     FAKE_ADD(grid, grids, fake_grid_of(grid), "grid");
+}
+
+int brume_share_grid(brume_scene *scene, struct grid *grid,
+                     struct brume_error *err)
+{
+    return brume_add_grid(scene, grid, err);
 }
 
 int brume_add_field(brume_scene *scene, const struct brume_field *field,

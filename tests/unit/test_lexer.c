@@ -38,7 +38,7 @@ static void scan(struct fixture *f, const char *text)
                                 .sources = 1};
     f->table[0] = &f->source;
     arena_init(&f->parser.arena, 0);
-    assert_true(symbols_init(&f->parser.symbols, &f->parser.arena));
+    assert_true(symbols_init(&f->parser.symbols, &f->parser.arena, NULL));
     f->source = (struct source){.name = "text",
                                 .folder = "",
                                 .text = calloc(1, length + 2),

@@ -18,7 +18,7 @@ static int begin(void **state)
     static struct fixture fixture;
     arena_init(&fixture.arena, 0);
     *state = &fixture;
-    return symbols_init(&fixture.symbols, &fixture.arena) ? 0 : -1;
+    return symbols_init(&fixture.symbols, &fixture.arena, NULL) ? 0 : -1;
 }
 
 static int end(void **state)
