@@ -538,6 +538,36 @@ static bool add_interior(const struct prepare *job,
     return true;
 }
 
+static bool is_endless(const flat_medium *m)
+{
+    return m->uniform || m->outside.density > 0.0f;
+}
+
+/* Light of a channel that unbounded media scatter and do not absorb goes on
+ * until a surface or bounded media absorb it: in an open scene, nothing. */
+static void tell_endless(const struct prepare *job)
+{
+    const struct flat *f = job->flat;
+    rgb scattered = rgb_gray(0.0f), absorbed = scattered;
+    if (!job->scene->globals.media_multiple || f->view.atmosphere < 0)
+        return;
+    const flat_interior *in = &f->interiors[f->view.atmosphere];
+    for (int i = 0; i < in->count; i++) {
+        const flat_medium *m = &f->media[f->interior_media[in->first + i]];
+        if (is_endless(m)) {
+            scattered = rgb_add(scattered, m->sigma_s);
+            absorbed = rgb_add(absorbed, m->sigma_a);
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        if (rgb_get(scattered, c) > 0.0f && !(rgb_get(absorbed, c) > 0.0f)) {
+            warn(job, "unbounded media scatter light without absorbing any: "
+                      "where no surface holds it, it goes on without end, and "
+                      "so may the rendering");
+            return;
+        }
+}
+
 bool prepare_media(const struct prepare *job, struct brume_error *err)
 {
     const brume_scene *s = job->scene;
@@ -548,6 +578,7 @@ bool prepare_media(const struct prepare *job, struct brume_error *err)
         if (!add_interior(job, &s->interiors[i], err))
             return false;
     job->flat->view.atmosphere = s->atmosphere;
+    tell_endless(job);
     flat_view(job->flat);
     return true;
 }

@@ -148,13 +148,6 @@ static void warn_of_samples(struct reel *reel, const struct brume_stats *stats)
                  stats->rejected);
         reel_warn(reel, text);
     }
-    if (stats->majorant_exceeded > 0) {
-        snprintf(text, sizeof text,
-                 "a density was above its bound %" PRIu64
-                 " times: the picture may be wrong",
-                 stats->majorant_exceeded);
-        reel_warn(reel, text);
-    }
 }
 
 /* ---- pictures that are finished ---------------------------------------- */

@@ -117,4 +117,20 @@ brume s.pov +W8 +H6 +SR5 +ER3
 exits 2
 says 'no row is left from 5 to 3'
 
+new_case 'an endless medium that absorbs nothing is told'
+endless='media { scattering { 1, rgb <0.1, 0.1, 0.2> }'
+echo "camera {} light_source { 2, 1 } box { -9, 9 pigment { rgb 0 } }
+      $endless }" >open.pov
+quick open.pov
+exits 0
+is_silent
+brume open.pov +W1 +H1 --spp 1 --transport full
+exits 0
+says 'scatter light without absorbing any'
+echo "camera {} light_source { 9, 1 } sphere { 3*z, 1 }
+      $endless absorption rgb 0.1 }" >dim.pov
+brume dim.pov +W2 +H2 --spp 1 --transport full +Odim.png
+exits 0
+is_silent
+
 end_cases
