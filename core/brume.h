@@ -479,6 +479,9 @@ struct brume_stats {
     double error;                   /* estimated relRMSE (DESIGN.md)       */
     double seconds_prepare, seconds_render;
     uint64_t bytes;
+    /* Of large meshes of a film: trees that were built, and had from the frame
+     * before. */
+    uint64_t trees_built, trees_kept;
     struct brume_photon_stats photons;
 };
 

@@ -3,7 +3,7 @@
 #include <string.h>
 #include "core/physics/bvh.h"
 
-enum { BINS = 16, LEAF = 4, MEDIAN_DEPTH = BVH_STACK / 2 - 2 };
+enum { BINS = 16, LEAF = 4 };
 
 struct box {
     float lo[3], hi[3];
@@ -18,6 +18,12 @@ struct task {
     size_t first, count;
     uint32_t node;
     int depth;
+};
+
+/* What a tree is to be like. */
+struct shape {
+    uint64_t from; /* names of items that are trees               */
+    int median;    /* from this depth on nodes are halved         */
 };
 
 struct split {
@@ -128,28 +134,38 @@ static size_t partition(struct bvh_item *items, size_t count,
     return left;
 }
 
+static bool has_tree(const struct bvh_item *items, size_t count, uint64_t from)
+{
+    for (size_t i = 0; i < count; i++)
+        if (items[i].name >= from)
+            return true;
+    return false;
+}
+
 /* Where to cut the items of a node; 0: make it a leaf. */
 static size_t cut(struct bvh_item *items, size_t count, int depth,
-                  const struct box *box, const struct box *centres)
+                  const struct box *box, const struct box *centres,
+                  const struct shape *shape)
 {
     if (count <= 1)
         return 0;
-    if (depth < MEDIAN_DEPTH) {
+    bool must = count > LEAF || has_tree(items, count, shape->from);
+    if (depth < shape->median) {
         struct split s = find_split(items, count, centres);
         float leaf_cost = box_area(box) * (float)count;
         bool worth = s.axis >= 0 && s.cost + box_area(box) < leaf_cost;
-        if (s.axis >= 0 && (worth || count > LEAF)) {
+        if (s.axis >= 0 && (worth || must)) {
             size_t left = partition(items, count, &s, centres);
             if (left > 0 && left < count)
                 return left;
         }
     }
-    return count > LEAF ? count / 2 : 0;
+    return must ? count / 2 : 0;
 }
 
 static bool make_node(struct flat *f, struct bvh_item *items,
                       struct task *stack, int *tasks, struct task t,
-                      struct brume_error *err)
+                      const struct shape *shape, struct brume_error *err)
 {
     struct box box, centres;
     struct bvh_item *part = items + t.first;
@@ -163,7 +179,7 @@ static bool make_node(struct flat *f, struct bvh_item *items,
     }
     memcpy(f->bvh[t.node].lo, box.lo, sizeof box.lo);
     memcpy(f->bvh[t.node].hi, box.hi, sizeof box.hi);
-    size_t left = cut(part, t.count, t.depth, &box, &centres);
+    size_t left = cut(part, t.count, t.depth, &box, &centres, shape);
     if (left == 0) {
         f->bvh[t.node].first = (uint32_t)(f->bvh_items_count + t.first);
         f->bvh[t.node].count = (uint32_t)t.count;
@@ -190,8 +206,20 @@ void bvh_widen(struct bvh_item *item)
     }
 }
 
-bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
-               struct brume_error *err)
+void bvh_triangle(const struct flat *flat, uint64_t triangle,
+                  struct bvh_item *out)
+{
+    const vec3 *p = flat->triangles[triangle].p;
+    vec3 lo = vec3_min(p[0], vec3_min(p[1], p[2]));
+    vec3 hi = vec3_max(p[0], vec3_max(p[1], p[2]));
+    for (int k = 0; k < 3; k++) {
+        out->lo[k] = vec3_get(lo, k);
+        out->hi[k] = vec3_get(hi, k);
+    }
+}
+
+static bool build(struct flat *flat, struct bvh_item *items, size_t count,
+                  const struct shape *shape, struct brume_error *err)
 {
     if (count == 0)
         return true;
@@ -203,10 +231,48 @@ bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
     for (size_t i = 0; i < count; i++)
         bvh_widen(&items[i]);
     while (tasks > 0)
-        if (tasks--, !make_node(flat, items, stack, &tasks, stack[tasks], err))
+        if (tasks--,
+            !make_node(flat, items, stack, &tasks, stack[tasks], shape, err))
             return false;
     uint32_t *names = FLAT_EXTEND(flat, bvh_items, count, err);
     for (size_t i = 0; names && i < count; i++)
         names[i] = items[i].name;
     return names != NULL;
+}
+
+bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
+               struct brume_error *err)
+{
+    const struct shape shape = {UINT64_MAX, BVH_STACK / 2 - 2};
+    return build(flat, items, count, &shape, err);
+}
+
+/* Halving count items takes as many levels as it has bits. */
+bool bvh_build_over(struct flat *flat, struct bvh_item *items, size_t count,
+                    uint64_t from, int depth, struct brume_error *err)
+{
+    int bits = 0;
+    while (count >> bits > 0)
+        bits++;
+    const struct shape shape = {from, depth - bits - 1};
+    return build(flat, items, count, &shape, err);
+}
+
+int bvh_depth(const struct flat *flat, uint32_t root)
+{
+    struct {
+        uint32_t node;
+        int depth;
+    } stack[2 * BVH_STACK] = {{root, 0}}, top;
+    int most = 0, held = 1;
+    while (held > 0) {
+        top = stack[--held];
+        most = top.depth > most ? top.depth : most;
+        const bvh_node *node = &flat->bvh[top.node];
+        for (uint32_t i = 0; node->count == 0 && i < 2; i++) {
+            stack[held].node = node->first + i;
+            stack[held++].depth = top.depth + 1;
+        }
+    }
+    return most;
 }

@@ -6,6 +6,7 @@
 #include "core/physics/kdtree.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
+#include "core/still.h"
 #include "lib/memory.h"
 #include "lib/timer.h"
 
@@ -403,6 +404,14 @@ static struct flat *prepare(brume_scene *scene,
     return prepare_scene(&p, err);
 }
 
+static void count_trees(const struct brume_still *before,
+                        const struct brume_still *now, struct brume_stats *out)
+{
+    int built = now->tree_builds - before->tree_builds;
+    out->trees_built = (uint64_t)built;
+    out->trees_kept = (uint64_t)(now->tree_uses - before->tree_uses - built);
+}
+
 bool frame_open(struct frame_job *j, brume_scene *scene,
                 const struct brume_options *options, struct brume_frame *out,
                 struct brume_error *err)
@@ -411,7 +420,12 @@ bool frame_open(struct frame_job *j, brume_scene *scene,
     *j = (struct frame_job){
         .options = options, .out = out, .start = timer_seconds()};
     set_goal(j);
+    struct brume_still before = {.tree_uses = 0}, *still = options->still;
+    if (still)
+        before = *still;
     j->flat = prepare(scene, options, err);
+    if (still)
+        count_trees(&before, still, &out->stats);
     bool good = j->flat && plan_layout(j->flat, options, err);
     j->spent = timer_seconds() - j->start;
     out->stats.seconds_prepare = j->spent;

@@ -27,7 +27,7 @@ struct leaf {
     double params[4];       /* physics/shape.h                             */
     matrix map;             /* its own space to the scene's                */
     struct solid solid;
-    const struct mesh *mesh;
+    struct mesh *mesh;
     struct mesh *made;      /* the same where it was made, owned           */
     size_t seen_triangles;  /* the mesh's triangles beyond close it        */
     double inside[3];       /* a mesh's inside_vector                      */

@@ -8,6 +8,7 @@
 #include "core/physics/bvh.h"
 #include "core/prepare.h"
 #include "core/still.h"
+#include "lib/memory.h"
 
 static vec3 to_vec3(const double p[3])
 {
@@ -243,15 +244,17 @@ static bool add_functions(const struct prepare *job, const struct assembly *a,
 
 /* ---- trees ------------------------------------------------------------- */
 
+/* Part by part: the tree of a large mesh, and where it is in the flat one. */
+struct trees {
+    struct mesh_tree **of;
+    uint32_t *root;
+    uint64_t from; /* names of those of the parts                 */
+    int deepest;
+};
+
 static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
 {
-    const vec3 *p = f->triangles[i].p;
-    vec3 lo = vec3_min(p[0], vec3_min(p[1], p[2]));
-    vec3 hi = vec3_max(p[0], vec3_max(p[1], p[2]));
-    for (int k = 0; k < 3; k++) {
-        out->lo[k] = vec3_get(lo, k);
-        out->hi[k] = vec3_get(hi, k);
-    }
+    bvh_triangle(f, i, out);
     out->name = (uint32_t)(f->shapes_count + i);
 }
 
@@ -263,15 +266,23 @@ static bool is_sought(const struct flat *f, size_t i)
     return seen || csg_has_media(&f->view, s);
 }
 
-static bool build_tree(const struct prepare *job, struct bvh_item *items,
-                       size_t count, struct brume_error *err)
+/* Levels that are left for the tree of all. */
+static int levels(const struct trees *trees)
+{
+    return BVH_STACK - 1 - trees->deepest;
+}
+
+static bool build_tree(const struct prepare *job, const struct trees *trees,
+                       struct bvh_item *items, size_t count,
+                       struct brume_error *err)
 {
     struct flat *f = job->flat;
     size_t first = f->bvh_count;
     bool good = false;
     switch (job->tree) {
     case BRUME_TREE_BVH:
-        good = still_bvh(job->still, f, items, count, err);
+        good = still_bvh(job->still, f, items, count, trees->from,
+                         levels(trees), err);
         break;
     case BRUME_TREE_KD:
         good = kd_build(f, items, count, job->tree_stack, err);
@@ -284,12 +295,12 @@ static bool build_tree(const struct prepare *job, struct bvh_item *items,
     return good;
 }
 
-/* The tree of all that rays look for comes first. */
-static bool make_tree(const struct prepare *job, const struct assembly *a,
-                      struct bvh_item *items, struct brume_error *err)
+/* What rays look for beside meshes. */
+static bool list_shapes(const struct prepare *job, const struct assembly *a,
+                        struct bvh_item *items, size_t *count,
+                        struct brume_error *err)
 {
     struct flat *f = job->flat;
-    size_t n = 0;
     for (size_t i = 0; i < a->parts_count; i++) {
         const struct box *seen = &a->parts[i].seen;
         if (f->shapes[i].kind == SHAPE_MESH || box_is_empty(seen) ||
@@ -302,17 +313,87 @@ static bool make_tree(const struct prepare *job, const struct assembly *a,
             *u = (int32_t)i;
             continue;
         }
-        unit_box(f, seen, items[n].lo, items[n].hi);
-        items[n++].name = (uint32_t)i;
+        unit_box(f, seen, items[*count].lo, items[*count].hi);
+        items[(*count)++].name = (uint32_t)i;
     }
-    for (size_t i = 0; i < f->triangles_count; i++)
-        triangle_item(f, i, &items[n++]);
-    return build_tree(job, items, n, err);
+    return true;
+}
+
+/* All triangles of a part as one. */
+static void tree_item(const struct flat *f, const struct trees *trees,
+                      size_t part, struct bvh_item *out)
+{
+    const flat_shape *s = &f->shapes[part];
+    triangle_item(f, s->triangle, out);
+    for (size_t t = 1; t < s->triangles; t++) {
+        struct bvh_item item;
+        bvh_triangle(f, s->triangle + t, &item);
+        for (int k = 0; k < 3; k++) {
+            out->lo[k] = fminf(out->lo[k], item.lo[k]);
+            out->hi[k] = fmaxf(out->hi[k], item.hi[k]);
+        }
+    }
+    out->name = (uint32_t)(trees->from + part);
+}
+
+static void list_meshes(const struct flat *f, const struct assembly *a,
+                        const struct trees *trees, struct bvh_item *items,
+                        size_t *count)
+{
+    for (size_t i = 0; i < a->parts_count; i++) {
+        const flat_shape *s = &f->shapes[i];
+        if (s->kind != SHAPE_MESH)
+            continue;
+        if (trees->of && trees->of[i]) {
+            tree_item(f, trees, i, &items[(*count)++]);
+            continue;
+        }
+        for (size_t t = 0; t < s->triangles; t++)
+            triangle_item(f, s->triangle + t, &items[(*count)++]);
+    }
+}
+
+/* The leaf of a large mesh becomes the root of its tree. */
+static bool add_tree(struct flat *f, struct trees *trees, uint32_t leaf,
+                     struct brume_error *err)
+{
+    size_t part = f->bvh_items[f->bvh[leaf].first] - trees->from;
+    trees->root[part] = (uint32_t)f->bvh_count;
+    if (!mesh_tree_add(trees->of[part], f, f->shapes[part].triangle, err))
+        return false;
+    f->bvh[leaf] = f->bvh[trees->root[part]];
+    return true;
+}
+
+static bool add_trees(struct flat *f, struct trees *trees, size_t first,
+                      struct brume_error *err)
+{
+    size_t end = f->bvh_count;
+    for (size_t i = first; trees->of && i < end; i++)
+        if (f->bvh[i].count == 1 &&
+            f->bvh_items[f->bvh[i].first] >= trees->from &&
+            !add_tree(f, trees, (uint32_t)i, err))
+            return false;
+    return true;
+}
+
+/* The tree of all that rays look for comes first. */
+static bool make_tree(const struct prepare *job, const struct assembly *a,
+                      struct trees *trees, struct bvh_item *items,
+                      struct brume_error *err)
+{
+    size_t count = 0, first = job->flat->bvh_count;
+    if (!list_shapes(job, a, items, &count, err))
+        return false;
+    list_meshes(job->flat, a, trees, items, &count);
+    return build_tree(job, trees, items, count, err) &&
+           add_trees(job->flat, trees, first, err);
 }
 
 /* Meshes whose inside is asked for have trees of their own. */
 static bool make_mesh_trees(const struct prepare *job, const struct assembly *a,
-                            struct bvh_item *items, struct brume_error *err)
+                            const struct trees *trees, struct bvh_item *items,
+                            struct brume_error *err)
 {
     struct flat *f = job->flat;
     for (size_t i = 0; i < a->parts_count; i++) {
@@ -322,6 +403,10 @@ static bool make_mesh_trees(const struct prepare *job, const struct assembly *a,
             (s->flags & SHAPE_THIN) || (s->node < 0 && !job->exact))
             continue;
         s->inside = to_vec3(v);
+        if (trees->of && trees->of[i]) {
+            s->tree = (int32_t)trees->root[i];
+            continue;
+        }
         s->tree = (int32_t)f->bvh_count;
         for (size_t t = 0; t < s->triangles; t++)
             triangle_item(f, s->triangle + t, &items[t]);
@@ -331,20 +416,57 @@ static bool make_mesh_trees(const struct prepare *job, const struct assembly *a,
     return true;
 }
 
+/* Those of a film's large meshes, built or kept; a mesh for which there is no
+ * memory, or too deep a tree, goes into the tree of all. */
+static bool find_trees(const struct prepare *job, const struct assembly *a,
+                       struct trees *trees, struct brume_error *err)
+{
+    struct brume_still *still = job->still;
+    struct flat *f = job->flat;
+    size_t count = a->parts_count;
+    enum { DEEPEST = BVH_STACK / 2 };
+    trees->from = f->shapes_count + f->triangles_count;
+    if (!still || job->tree != BRUME_TREE_BVH || job->exact)
+        return true;
+    trees->of = memory_new(count, sizeof(struct mesh_tree *), err);
+    trees->root = memory_new(count, sizeof *trees->root, err);
+    if (!trees->of || !trees->root)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        struct mesh_tree *tree = NULL;
+        if (f->shapes[i].kind == SHAPE_MESH &&
+            f->shapes[i].triangles >= MESH_TREE_WORTH)
+            tree = mesh_tree_of(&still->tree, a->parts[i].leaf.mesh,
+                                &still->tree_builds);
+        if (!tree || tree->depth > DEEPEST)
+            continue;
+        still->tree_uses++;
+        trees->of[i] = tree;
+        if (trees->deepest < tree->depth)
+            trees->deepest = tree->depth;
+    }
+    mesh_trees_drop(&still->tree, false);
+    return true;
+}
+
 static bool make_trees(const struct prepare *job, const struct assembly *a,
                        struct brume_error *err)
 {
     struct flat *f = job->flat;
+    struct trees trees = {.of = NULL};
     size_t most = f->shapes_count + f->triangles_count;
-    if (most > UINT32_MAX)
+    if (most + f->shapes_count > UINT32_MAX)
         return brume_fail(err, BRUME_ERR_LIMIT, "more than 2^32 surfaces");
     struct bvh_item *items = malloc((most + 1) * sizeof *items);
     if (!items)
         return brume_fail(err, BRUME_ERR_MEMORY,
                           "out of memory for a tree over %zu surfaces", most);
     flat_view(f);
-    bool good = make_tree(job, a, items, err) &&
-                make_mesh_trees(job, a, items, err);
+    bool good = find_trees(job, a, &trees, err) &&
+                make_tree(job, a, &trees, items, err) &&
+                make_mesh_trees(job, a, &trees, items, err);
+    free(trees.of);
+    free(trees.root);
     free(items);
     return good;
 }

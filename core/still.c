@@ -35,6 +35,7 @@ BRUME_API void brume_still_free(struct brume_still *still)
         return;
     forget_tree(still);
     forget_bvh(still);
+    mesh_trees_drop(&still->tree, true);
     free(still->before);
     free(still->item);
     free(still);
@@ -212,13 +213,14 @@ static void keep_bvh(struct brume_still *s, const struct flat *flat)
 }
 
 bool still_bvh(struct brume_still *still, struct flat *flat,
-               struct bvh_item *items, size_t count, struct brume_error *err)
+               struct bvh_item *items, size_t count, uint64_t from, int depth,
+               struct brume_error *err)
 {
     bool first = flat->bvh_count == 0 && flat->bvh_items_count == 0;
     if (!still || !first || count == 0)
-        return bvh_build(flat, items, count, err);
+        return bvh_build_over(flat, items, count, from, depth, err);
     size_t size = count * sizeof *items;
-    if (still->bvh && still->alls == count &&
+    if (still->bvh && still->alls == count && still->depth == depth &&
         memcmp(still->all, items, size) == 0)
         return take_bvh(still, flat, err);
     forget_bvh(still);
@@ -228,7 +230,8 @@ bool still_bvh(struct brume_still *still, struct flat *flat,
         still->alls = count;
     }
     still->bvh_builds++;
-    if (!bvh_build(flat, items, count, err))
+    still->depth = depth;
+    if (!bvh_build_over(flat, items, count, from, depth, err))
         return false;
     if (still->all)
         keep_bvh(still, flat);

@@ -4,6 +4,7 @@
 #define CORE_STILL_H
 #include "core/brume.h"
 #include "core/bvh.h"
+#include "core/mesh_tree.h"
 
 struct brume_still {
     uint64_t *before;       /* of the last frame's items, sorted           */
@@ -21,7 +22,9 @@ struct brume_still {
     bvh_node *bvh;
     uint32_t *bvh_item;
     size_t bvhs, bvh_items;
-    int bvh_builds;
+    int bvh_builds, depth;
+    struct mesh_tree *tree; /* of large meshes                             */
+    int tree_builds, tree_uses;
 };
 
 /* Builds the BVH of what was not there in the frame before, and takes over or
@@ -31,8 +34,10 @@ bool still_build(struct brume_still *still, struct flat *flat,
                  struct bvh_item *items, size_t count, int stack,
                  struct brume_error *err);
 
-/* Builds the BVH of all items, or takes over the last frame's where all are
- * the same; the first tree of `flat`. `still` may be NULL. */
+/* Builds the BVH of all items as bvh_build_over does, or takes over the last
+ * frame's where all are the same; the first tree of `flat`. `still` may be
+ * NULL. */
 bool still_bvh(struct brume_still *still, struct flat *flat,
-               struct bvh_item *items, size_t count, struct brume_error *err);
+               struct bvh_item *items, size_t count, uint64_t from, int depth,
+               struct brume_error *err);
 #endif

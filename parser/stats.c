@@ -56,6 +56,8 @@ static bool put_counts(struct json *json, const struct brume_stats *s)
            json_put_count(json, "lookups", s->lookups) &&
            json_put_count(json, "majorant_exceeded", s->majorant_exceeded) &&
            json_put_count(json, "rejected", s->rejected) &&
+           json_put_count(json, "trees_built", s->trees_built) &&
+           json_put_count(json, "trees_kept", s->trees_kept) &&
            json_put_count(json, "bytes", s->bytes);
 }
 

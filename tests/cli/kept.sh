@@ -42,11 +42,11 @@ END
     echo '#include "head.inc"'
     echo '#if (frame_number = 2) #include "late.inc" #end'
     echo '#declare M = mesh2 {'
-    grid 12
+    grid 33
     cat <<'END'
         #if (clock < 0.1 | (clock > 0.3 & clock < 0.9))
             uv_vectors { 3, <0, 0>, <1, 0>, <0, 1> }
-            normal_vectors { 169 #for (I, 1, 169) <sin(I), 1, 0> #end }
+            normal_vectors { 1156 #for (I, 1, 1156) <sin(I), 1, 0> #end }
         #end
         pigment { rgb <1, clock, 0> }
     }
@@ -114,6 +114,10 @@ is "$(counts texts_kept)" '0 4 4 4 4 '
 # Two of them have more than what is spelt out, for a frame or two.
 is "$(counts meshes_read)" '4 1 1 2 1 '
 is "$(counts meshes_kept)" '0 3 4 4 4 '
+
+new_case 'and the tree of a large mesh is built once'
+is "$(counts trees_built)" '1 0 0 0 0 '
+is "$(counts trees_kept)" '1 2 2 2 2 '
 
 new_case 'a file that the scene writes is read anew'
 cat >writes.pov <<'END'

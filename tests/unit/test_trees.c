@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include "core/prepare.h"
 #include "core/still.h"
 #include "tests/unit/tree_meshes.h"
 
@@ -249,7 +250,8 @@ static void test_still__bvh(void **state)
             f->triangles[k].p[0].x += k == 500 ? shift[i] : 0.0f;
             item[k] = triangle_bounds(f->triangles[k].p, (uint32_t)(1 + k));
         }
-        assert_true(still_bvh(still, f, item, t.count, &err));
+        assert_true(still_bvh(still, f, item, t.count, UINT64_MAX,
+                              BVH_STACK - 1, &err));
         assert_int_equal(still->bvh_builds, builds[i]);
         f->view.bvh_root = 0;
         flat_view(f);
@@ -259,6 +261,103 @@ static void test_still__bvh(void **state)
     free(item);
     brume_still_free(still);
     free(t.corner);
+}
+
+/* A mesh twice, one of them turned and moved from frame to frame, among
+ * spheres, and inside of a difference. */
+static brume_scene *mesh_scene(struct mesh *mesh, double t)
+{
+    struct brume_error err = {0};
+    brume_scene *scene = brume_scene_new(&err);
+    struct brume_material paint = BRUME_MATERIAL_INIT;
+    struct brume_shape shape = BRUME_SHAPE_INIT;
+    int id = brume_share_mesh(scene, mesh, &err);
+    const double turned[3][4] = {{cos(t), -sin(t), 0.3 * t, t},
+                                 {sin(t), cos(t), 0, 0.2 * t},
+                                 {0, 0.1, 1 + t, -0.3 * t}};
+    shape.material = brume_add_material(scene, &paint, &err);
+    for (int i = 0; i < 40; i++) {
+        shape.radius = 0.05;
+        for (int k = 0; k < 3; k++)
+            shape.a[k] = sin(1.0 + 3 * i + k);
+        assert_true(brume_add_shape(scene, &shape, &err) >= 0);
+    }
+    shape.kind = BRUME_SHAPE_MESH;
+    shape.mesh = id;
+    shape.a[0] = shape.a[2] = 0;
+    shape.a[1] = 1;
+    assert_true(brume_add_shape(scene, &shape, &err) >= 0);
+    memcpy(shape.transform, turned, sizeof turned);
+    shape.part = true;
+    int parts[2] = {brume_add_shape(scene, &shape, &err), 0};
+    struct brume_shape ball = BRUME_SHAPE_INIT;
+    ball.radius = 0.4;
+    ball.part = true;
+    parts[1] = brume_add_shape(scene, &ball, &err);
+    struct brume_shape cut = BRUME_SHAPE_INIT;
+    cut.kind = BRUME_SHAPE_DIFFERENCE;
+    cut.material = shape.material;
+    cut.parts = parts;
+    cut.part_count = 2;
+    assert_true(brume_add_shape(scene, &cut, &err) >= 0);
+    return scene;
+}
+
+static void assert_same_hits(const struct flat *f, const struct flat *plain)
+{
+    uint64_t hits = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        rng random = rng_make(7, 0, 0, i);
+        float u = rng_float(&random), v = rng_float(&random);
+        vec3 o = warp_sphere(u, v);
+        u = rng_float(&random);
+        v = rng_float(&random);
+        vec3 d = vec3_scale(warp_sphere(u, v), 0.5f);
+        bvh_ray r = bvh_ray_make(o, vec3_normalize(vec3_sub(d, o)));
+        ray_hit after = hit_start(0.0f);
+        for (int k = 0; k < 4; k++) {
+            ray_hit want = bvh_nearest(&plain->view, &r, &after, INFINITY);
+            ray_hit got = bvh_nearest(&f->view, &r, &after, INFINITY);
+            assert_true(same_hit(&got, &want));
+            if (want.shape < 0)
+                break;
+            after = want;
+            hits += want.triangle >= 0;
+        }
+    }
+    assert_true(hits > 300);
+}
+
+/* Its tree is built once, wherever the mesh goes, and finds what a tree finds
+ * that is built anew; another mesh gets another. */
+static void test_still__meshes(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    struct brume_still *still = brume_still_new(&err);
+    struct mesh *mesh = ply_load(spot, &err);
+    for (int i = 0; i < 5; i++) {
+        if (i == 3)
+            mesh->position[0][0] += 0.1;
+        brume_scene *scene = mesh_scene(mesh, i == 1 ? 0.0 : 0.4 * i);
+        struct prepare with = {.scene = scene, .still = still};
+        struct prepare without = {.scene = scene};
+        struct flat *f = prepare_scene(&with, &err);
+        struct flat *plain = prepare_scene(&without, &err);
+        assert_non_null(f);
+        assert_non_null(plain);
+        assert_same_hits(f, plain);
+        assert_int_equal(still->tree_builds, i < 3 ? 1 : 2);
+        flat_free(f);
+        flat_free(plain);
+        brume_scene_free(scene);
+        /* As a file does that is read again. */
+        struct mesh *copy = mesh_copy(mesh, &err);
+        mesh_free(mesh);
+        mesh = copy;
+    }
+    mesh_free(mesh);
+    brume_still_free(still);
 }
 
 /* Things that came and went give the others other numbers. */
@@ -290,6 +389,7 @@ int main(void)
         cmocka_unit_test(test_trees__kd_divides),
         cmocka_unit_test(test_still__film),
         cmocka_unit_test(test_still__bvh),
+        cmocka_unit_test(test_still__meshes),
         cmocka_unit_test(test_still__renumbered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
