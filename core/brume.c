@@ -306,6 +306,12 @@ int brume_add_field(brume_scene *scene, const struct brume_field *field,
         (field->kind == BRUME_FIELD_FUNCTION &&
          !check_field_function(scene, field, err)))
         return -1;
+    if (grid && scene->grids[field->grid]->any_sign) {
+        brume_fail(err, BRUME_ERR_SCENE,
+                   "grid %d is a part of a velocity, and no density",
+                   field->grid);
+        return -1;
+    }
     return APPEND(scene, fields, *field, err);
 }
 
@@ -330,6 +336,20 @@ static bool check_fire(const brume_scene *scene, const struct brume_fire *f,
                       "the fire's reference is %g K but must be at least "
                       "500 K, where a black body begins to glow",
                       f->reference);
+}
+
+static bool check_velocity(const brume_scene *scene,
+                           const struct brume_velocity *v,
+                           struct brume_error *err)
+{
+    for (int i = 0; i < 3; i++)
+        if (!check_id(v->grid[i], scene->grids_count, false, "grid", err) ||
+            !(scene->grids[v->grid[i]]->any_sign ||
+              brume_fail(err, BRUME_ERR_SCENE,
+                         "grid %d is no part of a velocity", v->grid[i])))
+            return false;
+    return check_finite(&v->scale, 1, "a velocity's scale", err) &&
+           check_transform(v->transform, "a velocity", err);
 }
 
 static bool check_medium(const brume_scene *scene, const struct brume_medium *m,
@@ -357,7 +377,8 @@ static bool check_medium(const brume_scene *scene, const struct brume_medium *m,
     for (int i = 0; i < m->densities; i++)
         if (!check_id(m->density[i], scene->fields_count, false, "field", err))
             return false;
-    return !m->fire.on || check_fire(scene, &m->fire, err);
+    return (!m->fire.on || check_fire(scene, &m->fire, err)) &&
+           (!m->velocity.on || check_velocity(scene, &m->velocity, err));
 }
 
 int brume_add_medium(brume_scene *scene, const struct brume_medium *medium,

@@ -369,6 +369,18 @@ struct brume_fire {
 #define BRUME_FIRE_INIT                                                       \
     {false, -1, -1, 1000, 0, 1, 2000, BRUME_BRIGHTNESS_PHYSICAL, false}
 
+/* How what it is made of moves, along which the frames of a film are compared
+ * (brume_film.h): three grids, of which `scale` times the numbers at a place
+ * are its move from this frame to the next, in the grids' own space, or in
+ * voxels; grids of components have `any_sign`. `transform` follows. */
+struct brume_velocity {
+    bool on, voxels;
+    int grid[3];
+    double scale;
+    double transform[3][4];
+};
+#define BRUME_VELOCITY_INIT {false, false, {-1, -1, -1}, 1, BRUME_IDENTITY}
+
 enum { BRUME_MAX_DENSITIES = 4, BRUME_MAX_INTERIOR_MEDIA = 8 };
 
 /* Coefficients per scene unit at density 1; density is the product of the
@@ -382,10 +394,11 @@ struct brume_medium {
                                    scattering (single scattering only)     */
     int density[BRUME_MAX_DENSITIES], densities;
     struct brume_fire fire;
+    struct brume_velocity velocity;
 };
 #define BRUME_MEDIUM_INIT                                                     \
     {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, BRUME_PHASE_ISOTROPIC, 0, 1,            \
-     {-1, -1, -1, -1}, 0, BRUME_FIRE_INIT}
+     {-1, -1, -1, -1}, 0, BRUME_FIRE_INIT, BRUME_VELOCITY_INIT}
 BRUME_API int brume_add_medium(brume_scene *scene,
                                const struct brume_medium *medium,
                                struct brume_error *err);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "core/drift.h"
 #include "core/filter_view.h"
 #include "core/physics/radiance.h"
 #include "lib/memory.h"
@@ -23,6 +24,12 @@ static double noise_of(const radiance_lattice *f, double power)
            (f->eye >= 0 && f->fluence < 0 ? phase : 1.0);
 }
 
+/* Numbers that tell how far the blocks move. */
+static size_t drift_count(const struct filter_field *f)
+{
+    return f->count / (512 * (size_t)f->lattice.numbers) * DRIFT_BLOCKS * 3;
+}
+
 bool filter_keep(const struct flat *flat, double power,
                  struct filter_field *out, struct brume_error *err)
 {
@@ -37,12 +44,17 @@ bool filter_keep(const struct flat *flat, double power,
     memcpy(out->centre, flat->centre, sizeof out->centre);
     out->slots = memory_new(out->bricks, sizeof *out->slots, err);
     out->cells = memory_new(out->count, sizeof *out->cells, err);
-    if (!out->slots || !out->cells) {
+    out->drift = flat->drift
+                     ? memory_new(drift_count(out), sizeof *out->drift, err)
+                     : NULL;
+    if (!out->slots || !out->cells || (flat->drift && !out->drift)) {
         filter_release(out);
         return false;
     }
     memcpy(out->slots, flat->radiance_slots, out->bricks * sizeof *out->slots);
     memcpy(out->cells, flat->radiance, out->count * sizeof *out->cells);
+    if (out->drift)
+        memcpy(out->drift, flat->drift, drift_count(out) * sizeof *out->drift);
     return true;
 }
 
@@ -50,13 +62,15 @@ void filter_release(struct filter_field *f)
 {
     free(f->slots);
     free(f->cells);
+    free(f->drift);
     f->slots = NULL;
-    f->cells = NULL;
+    f->cells = f->drift = NULL;
 }
 
 uint64_t filter_bytes(const struct filter_field *f)
 {
-    return f->bricks * sizeof *f->slots + f->count * sizeof *f->cells;
+    return f->bricks * sizeof *f->slots + f->count * sizeof *f->cells +
+           (f->drift ? drift_count(f) * sizeof *f->drift : 0);
 }
 
 /* ---- the mean ----------------------------------------------------------- */
@@ -103,7 +117,8 @@ static void mean_of_brick(void *context, size_t index, int thread)
     filter_corner(f, index, corner);
     memset(sum, 0, FILTER_CELLS * (size_t)f->numbers * sizeof *sum);
     for (int k = 0; k < m->taps; k++)
-        if (filter_view_brick(&m->view[k], corner, &m->room[thread], &brick))
+        if (filter_view_brick(&m->view[k], corner, NULL, &m->room[thread],
+                              &brick))
             add_frame(&brick, f->numbers, (float)m->weights[k], sum, weights);
     float *out = m->flat->radiance +
                  (size_t)slot * FILTER_CELLS * (size_t)f->numbers;

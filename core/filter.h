@@ -13,6 +13,7 @@ struct filter_field {
     double unit, centre[3];     /* as in struct flat                       */
     int32_t *slots;
     float *cells;               /* lattice.numbers each                    */
+    float *drift;               /* as in struct flat, or NULL              */
     size_t bricks, count;       /* of slots, of numbers in cells           */
     double noise;               /* variance of a number over its mean, where
                                    all channels have the same              */

@@ -6,7 +6,11 @@
  * cancels in it; where that differs more than they do singly, as at a cut,
  * they count singly. Weights then make the sum of squared change and variance
  * least: with b the changes, all of one sign at worst, and V the variance,
- * w ~ 1 - b Sum b / (V + Sum b^2). */
+ * w ~ 1 - b Sum b / (V + Sum b^2).
+ *
+ * Where media have a velocity frames are judged twice: as they are, since a
+ * flow may stand still in space, and where the media took what is in them; for
+ * each block those that differ less are taken. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +25,10 @@
 #define MARGIN 1.2f
 #define MARGIN_OF_MEAN 10.0f
 
+/* The part of a frame's variance that is left where its cells are interpolated,
+ * which is 0.3 of independent ones at random places. */
+#define MOVED_PART 0.6f
+
 enum { NUMBERS = sizeof(struct filter_stats) / sizeof(float) };
 enum { MIDDLE = FILTER_MIDDLE, OTHERS = FILTER_OTHERS };
 
@@ -28,9 +36,9 @@ struct adapt {
     struct filter_judge judge;
     float noise[BRUME_MAX_TAPS];
     struct desk {
-        struct filter_stats near[FILTER_BLOCKS];
+        struct filter_stats near[2][FILTER_BLOCKS]; /* as they are, moved */
         struct filter_stats plane[24];
-        float weight[BRUME_MAX_TAPS][FILTER_BLOCKS];
+        float weight[2][BRUME_MAX_TAPS][FILTER_BLOCKS];
         struct filter_room room;
     } * desk; /* a thread's */
 };
@@ -46,7 +54,7 @@ static void add(struct filter_stats *sum, const struct filter_stats *more)
 }
 
 /* The blocks of the bricks around one, itself in the middle; NULL: none. */
-static void find_around(const struct adapt *a, const int at[3],
+static void find_around(const struct adapt *a, bool moved, const int at[3],
                         const struct filter_stats *around[27])
 {
     const struct flat *flat = a->judge.flat;
@@ -61,8 +69,9 @@ static void find_around(const struct adapt *a, const int at[3],
                                       (size_t)n[0] * ((size_t)y +
                                                       (size_t)n[1] * (size_t)z)]
                : -1;
-        around[i] = slot < 0 ? NULL
-                             : a->judge.stats + (size_t)slot * FILTER_BLOCKS;
+        around[i] = slot < 0
+                        ? NULL
+                        : a->judge.stats[moved] + (size_t)slot * FILTER_BLOCKS;
     }
 }
 
@@ -90,7 +99,7 @@ static void sum_layer(struct filter_stats plane[24], int z,
 }
 
 /* Sums over each block and those around it: along x, y, then z. */
-static void sum_around(struct desk *d,
+static void sum_around(struct desk *d, struct filter_stats near[FILTER_BLOCKS],
                        const struct filter_stats *const around[27])
 {
     for (int z = -1; z < 5; z++) {
@@ -100,9 +109,9 @@ static void sum_around(struct desk *d,
             add(&row, &d->plane[i + 4]);
             add(&row, &d->plane[i + 8]);
             if (z < 3)
-                d->near[16 * (z + 1) + i] = row;
+                near[16 * (z + 1) + i] = row;
             for (int k = z > 0 ? z - 1 : 0; k <= z && k < 4; k++)
-                add(&d->near[16 * k + i], &row);
+                add(&near[16 * k + i], &row);
         }
     }
 }
@@ -230,17 +239,34 @@ static int list_estimates(const struct adapt *a, const struct filter_stats *s,
     return 1;
 }
 
+/* The slope of the weights, those left out that it makes negative: it grows as
+ * they go, until there are as many as before. */
+static float find_slope(const struct estimate *e, int count)
+{
+    float slope = 0.0f;
+    int before = -1, used = 0;
+    for (int round = 0; round <= count && used != before; round++) {
+        float sum = 0.0f, square = 0.0f;
+        before = used;
+        used = 0;
+        for (int i = 0; i < count; i++) {
+            if (!(e[i].change * slope < 1.0f))
+                continue;
+            used++;
+            sum += e[i].change / e[i].variance;
+            square += e[i].change * e[i].change / e[i].variance;
+        }
+        slope = sum / (1.0f + square);
+    }
+    return slope;
+}
+
 /* What makes squared change and variance least, of the middle frame, of
  * variance `own`, and these. */
 static void weigh(const struct estimate *e, int count, float own,
                   float weight[BRUME_MAX_TAPS])
 {
-    float sum = 0.0f, square = 0.0f;
-    for (int i = 0; i < count; i++) {
-        sum += e[i].change / e[i].variance;
-        square += e[i].change * e[i].change / e[i].variance;
-    }
-    float slope = sum / (1.0f + square);
+    float slope = find_slope(e, count);
     weight[MIDDLE] = 1.0f / own;
     for (int i = 0; i < count; i++) {
         float w = larger(1.0f - e[i].change * slope, 0.0f) / e[i].variance;
@@ -273,6 +299,41 @@ static void find_weights(const struct adapt *a, const struct filter_stats *s,
         weight[k] /= sum;
 }
 
+/* By how much frames and the means of two differ from the middle one beyond
+ * noise, squared, on average; `part` is what is left of their variance. */
+static float differ(const struct adapt *a, const struct filter_stats *s,
+                    float level, float part)
+{
+    float sum = 0.0f, count = 0.0f;
+    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+        int i = filter_other(k);
+        if (k == MIDDLE || !(s->count[i] > 0.0f))
+            continue;
+        sum += s->differ[i] / s->count[i] -
+               (a->noise[MIDDLE] + part * a->noise[k]) * level;
+        count += 1.0f;
+    }
+    for (int m = 1; m <= a->judge.reach; m++) {
+        float both = a->noise[MIDDLE - m] + a->noise[MIDDLE + m];
+        if (!(s->pairs[m - 1] > 0.0f))
+            continue;
+        sum += s->pair[m - 1] / s->pairs[m - 1] -
+               (a->noise[MIDDLE] + 0.25f * part * both) * level;
+        count += 1.0f;
+    }
+    return count > 0.0f ? sum / count : INFINITY;
+}
+
+static bool is_better_moved(const struct adapt *a, const struct desk *d, int i)
+{
+    float move[OTHERS];
+    const struct filter_stats *s = &d->near[0][i];
+    find_moves(s, move);
+    float level = pool(a, s, move, 0.0f, true);
+    return differ(a, &d->near[1][i], level, MOVED_PART) <
+           differ(a, s, level, 1.0f);
+}
+
 /* ---- bricks ------------------------------------------------------------- */
 
 /* Adds a frame's cells times the weights of their blocks. */
@@ -303,16 +364,40 @@ static bool is_used(const float weight[FILTER_BLOCKS])
     return false;
 }
 
-static void mix_brick(const struct adapt *a, const int corner[3],
+static void mix_brick(const struct adapt *a, size_t slot, const int corner[3],
                       struct desk *d, float *out)
 {
     struct filter_brick brick;
     int numbers = a->judge.flat->view.field.numbers;
     memset(out, 0, FILTER_CELLS * (size_t)numbers * sizeof *out);
-    for (int k = 0; k < BRUME_MAX_TAPS; k++)
-        if (is_used(d->weight[k]) &&
-            filter_view_brick(&a->judge.view[k], corner, &d->room, &brick))
-            mix_frame(brick.cells, numbers, d->weight[k], out);
+    for (int j = 0; j < 2; j++)
+        for (int k = 0; k < BRUME_MAX_TAPS; k++)
+            if (is_used(d->weight[j][k]) &&
+                filter_load(&a->judge, k, j, slot, corner, &d->room, &brick))
+                mix_frame(brick.cells, numbers, d->weight[j][k], out);
+}
+
+/* Weights of a brick's blocks. */
+static void weigh_brick(const struct adapt *a, int32_t slot,
+                        const int corner[3], struct desk *d)
+{
+    const struct filter_stats *around[27];
+    int modes = a->judge.places ? 2 : 1;
+    memset(d->weight, 0, sizeof d->weight);
+    for (int j = 0; j < modes; j++) {
+        find_around(a, j, (int[3]){corner[0] / 8, corner[1] / 8, corner[2] / 8},
+                    around);
+        sum_around(d, d->near[j], around);
+    }
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        bool moved = modes > 1 && is_better_moved(a, d, i);
+        const struct filter_stats *own = a->judge.stats[moved] +
+                                         (size_t)slot * FILTER_BLOCKS + i;
+        float weight[BRUME_MAX_TAPS];
+        find_weights(a, &d->near[moved][i], own, weight);
+        for (int k = 0; k < BRUME_MAX_TAPS; k++)
+            d->weight[moved][k][i] = weight[k];
+    }
 }
 
 static void adapt_brick(void *context, size_t index, int thread)
@@ -321,22 +406,13 @@ static void adapt_brick(void *context, size_t index, int thread)
     const struct flat *flat = a->judge.flat;
     const radiance_lattice *f = &flat->view.field;
     struct desk *d = &a->desk[thread];
-    const struct filter_stats *around[27];
     int32_t slot = flat->radiance_slots[index];
     int corner[3];
     if (slot < 0)
         return;
     filter_corner(f, index, corner);
-    find_around(a, (int[3]){corner[0] / 8, corner[1] / 8, corner[2] / 8},
-                around);
-    sum_around(d, around);
-    for (int i = 0; i < FILTER_BLOCKS; i++) {
-        float weight[BRUME_MAX_TAPS];
-        find_weights(a, &d->near[i], &around[13][i], weight);
-        for (int k = 0; k < BRUME_MAX_TAPS; k++)
-            d->weight[k][i] = weight[k];
-    }
-    mix_brick(a, corner, d,
+    weigh_brick(a, slot, corner, d);
+    mix_brick(a, (size_t)slot, corner, d,
               flat->radiance +
                   (size_t)slot * FILTER_CELLS * (size_t)f->numbers);
 }
@@ -361,7 +437,7 @@ bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
     if (good)
         parallel_for(threads, flat->radiance_slots_count, adapt_brick, &a,
                      NULL);
-    free(a.judge.stats);
+    filter_judge_release(&a.judge);
     free(a.desk);
     return good;
 }

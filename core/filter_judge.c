@@ -16,6 +16,7 @@ struct side {
 
 struct desk {
     const struct filter_judge *judge;
+    bool moved;
     struct side (*side)[3]; /* a thread's: middle, before and after    */
 };
 
@@ -31,12 +32,13 @@ static void find_blocks(struct side *s, const float *there)
     }
 }
 
-static void load(const struct filter_judge *judge, int k, const int corner[3],
-                 struct side *s)
+static void load(const struct desk *desk, int k, size_t slot,
+                 const int corner[3], struct side *s)
 {
+    const struct filter_judge *judge = desk->judge;
     struct filter_brick brick;
     int numbers = judge->flat->view.field.numbers;
-    s->any = filter_view_brick(&judge->view[k], corner, &s->room, &brick);
+    s->any = filter_load(judge, k, desk->moved, slot, corner, &s->room, &brick);
     if (!s->any)
         return;
     find_blocks(s, brick.there);
@@ -155,15 +157,16 @@ static void judge_brick(void *context, size_t index, int thread)
     if (slot < 0)
         return;
     filter_corner(&judge->flat->view.field, index, corner);
-    struct filter_stats *out = judge->stats + (size_t)slot * FILTER_BLOCKS;
-    load(judge, FILTER_MIDDLE, corner, &side[0]);
+    struct filter_stats *out = judge->stats[desk->moved] +
+                               (size_t)slot * FILTER_BLOCKS;
+    load(desk, FILTER_MIDDLE, (size_t)slot, corner, &side[0]);
     if (!side[0].any)
         return;
     judge_middle(&side[0], out);
     for (int m = 1; m <= judge->reach; m++) {
         for (int j = 1; j <= 2; j++) {
             int k = FILTER_MIDDLE + (j == 1 ? -m : m);
-            load(judge, k, corner, &side[j]);
+            load(desk, k, (size_t)slot, corner, &side[j]);
             if (side[j].any)
                 judge_other(&side[0], &side[j], filter_other(k), out);
         }
@@ -172,20 +175,36 @@ static void judge_brick(void *context, size_t index, int thread)
     }
 }
 
-bool filter_judge(struct filter_judge *judge, int threads,
-                  struct brume_error *err)
+/* Judges frames as they are, or moved. */
+static bool judge_all(struct filter_judge *judge, bool moved, int threads,
+                      struct brume_error *err)
 {
-    struct desk desk = {judge, NULL};
+    struct desk desk = {judge, moved, NULL};
     const struct flat *flat = judge->flat;
     size_t numbers = (size_t)flat->view.field.numbers;
     size_t blocks = flat->radiance_count / (numbers * FILTER_CELLS) *
                     FILTER_BLOCKS;
-    judge->stats = memory_new(blocks, sizeof *judge->stats, err);
+    judge->stats[moved] = memory_new(blocks, sizeof *judge->stats[moved], err);
     desk.side = memory_new((size_t)threads, sizeof *desk.side, err);
-    bool good = judge->stats && desk.side;
+    bool good = judge->stats[moved] && desk.side;
     if (good)
         parallel_for(threads, flat->radiance_slots_count, judge_brick, &desk,
                      NULL);
     free(desk.side);
     return good;
+}
+
+bool filter_judge(struct filter_judge *judge, int threads,
+                  struct brume_error *err)
+{
+    return filter_follow(judge, threads, err) &&
+           judge_all(judge, false, threads, err) &&
+           (!judge->places || judge_all(judge, true, threads, err));
+}
+
+void filter_judge_release(struct filter_judge *judge)
+{
+    free(judge->stats[0]);
+    free(judge->stats[1]);
+    free(judge->places);
 }

@@ -5,7 +5,6 @@
 #include "core/filter_view.h"
 
 enum {
-    FILTER_BLOCKS = 64,                     /* of a brick                  */
     FILTER_OTHERS = 2 * BRUME_MAX_REACH,    /* frames besides the middle   */
     FILTER_MIDDLE = BRUME_MAX_REACH         /* its place among all         */
 };
@@ -27,13 +26,36 @@ struct filter_judge {
     struct flat *flat;
     struct filter_view view[BRUME_MAX_TAPS];
     int reach, primary;             /* the first of the numbers that count  */
-    struct filter_stats *stats;     /* of each block of each brick that is
-                                       there                                */
+    struct filter_places *places;   /* in each frame, of each brick that is
+                                       there; NULL: nothing moves           */
+    struct filter_stats *stats[2];  /* of each block of each brick that is
+                                       there: where it is, and where it was;
+                                       the second NULL: nothing moves       */
 };
 
-/* Fills the stats; false: no memory. */
+/* Finds where blocks are in other frames, see filter_path.c; false: no memory.
+ */
+bool filter_follow(struct filter_judge *judge, int threads,
+                   struct brume_error *err);
+
+/* The cells of the frame at k where the middle one has a brick, or where it
+ * was then. */
+static inline bool filter_load(const struct filter_judge *judge, int k,
+                               bool moved, size_t slot, const int corner[3],
+                               struct filter_room *room,
+                               struct filter_brick *out)
+{
+    const struct filter_places *places = moved && k != FILTER_MIDDLE
+                                      ? judge->places + slot * BRUME_MAX_TAPS +
+                                            (size_t)k
+                                      : NULL;
+    return filter_view_brick(&judge->view[k], corner, places, room, out);
+}
+
+/* Fills the stats, and places; false: no memory. */
 bool filter_judge(struct filter_judge *judge, int threads,
                   struct brume_error *err);
+void filter_judge_release(struct filter_judge *judge);
 
 /* The place in the list above of the frame at `k`, FILTER_MIDDLE the middle
  * one's. */

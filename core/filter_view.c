@@ -113,17 +113,17 @@ static const float *cell_at(const struct filter_field *f, int x, int y, int z)
                                      (size_t)f->lattice.numbers;
 }
 
-static bool interpolate(const struct filter_view *v, const int at[3],
+/* At q, in cells of the field. */
+static bool interpolate(const struct filter_view *v, const double q[3],
                         float out[FILTER_MAX_NUMBERS])
 {
     const struct filter_field *f = v->field;
     double fraction[3], sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0;
     int low[3], numbers = f->lattice.numbers;
     for (int i = 0; i < 3; i++) {
-        double q = v->scale * at[i] + v->shift[i];
-        double whole = fmin(fmax(floor(q), -1e6), 1e6);
+        double whole = fmin(fmax(floor(q[i]), -1e6), 1e6);
         low[i] = (int)whole;
-        fraction[i] = q - whole;
+        fraction[i] = q[i] - whole;
     }
     for (int k = 0; k < 8; k++) {
         double weight = 1.0;
@@ -186,6 +186,16 @@ static const float *aligned_cells(const struct filter_view *v,
                    corner[1] + 8 * v->brick[1], corner[2] + 8 * v->brick[2]);
 }
 
+/* Whether there is a cell, whose numbers are 0 if not. */
+static bool put_cell(struct filter_room *room, int cell, int numbers,
+                     bool there)
+{
+    for (int k = 0; !there && k < numbers; k++)
+        room->cells[cell * numbers + k] = 0.0f;
+    room->there[cell] = there ? 1.0f : 0.0f;
+    return there;
+}
+
 static bool fill_cells(const struct filter_view *v, const int corner[3],
                        struct filter_room *room)
 {
@@ -195,11 +205,93 @@ static bool fill_cells(const struct filter_view *v, const int corner[3],
     for (int i = 0; i < FILTER_CELLS; i++, out += numbers) {
         int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
                      corner[2] + (i >> 6)};
-        bool there = interpolate(v, at, out);
-        for (int k = 0; !there && k < numbers; k++)
-            out[k] = 0.0f;
-        room->there[i] = there ? 1.0f : 0.0f;
-        any = any || there;
+        double q[3];
+        for (int k = 0; k < 3; k++)
+            q[k] = v->scale * at[k] + v->shift[k];
+        any |= put_cell(room, i, numbers, interpolate(v, q, out));
+    }
+    return any;
+}
+
+/* ---- moved blocks ------------------------------------------------------- */
+
+/* The 3^3 cells around a block's place. */
+struct around {
+    float cell[27][FILTER_MAX_NUMBERS];
+    float there[27];
+    float fraction[3];
+};
+
+static bool load_around(const struct filter_view *v, const float place[3],
+                        struct around *a)
+{
+    int low[3], numbers = v->field->lattice.numbers;
+    bool any = false;
+    for (int i = 0; i < 3; i++) {
+        float whole = floorf(place[i]);
+        low[i] = (int)whole;
+        a->fraction[i] = place[i] - whole;
+    }
+    for (int k = 0; k < 27; k++) {
+        const float *cell = cell_at(v->field, low[0] + k % 3,
+                                    low[1] + k / 3 % 3, low[2] + k / 9);
+        a->there[k] = cell ? 1.0f : 0.0f;
+        for (int i = 0; i < numbers; i++)
+            a->cell[k][i] = cell ? cell[i] : 0.0f;
+        any = any || cell;
+    }
+    return any;
+}
+
+/* The weights of the three cells of an axis for the first cell of a block, or
+ * the second. */
+static void weights_of(float fraction, int second, float weight[3])
+{
+    weight[0] = second ? 0.0f : 1.0f - fraction;
+    weight[1] = second ? 1.0f - fraction : fraction;
+    weight[2] = second ? fraction : 0.0f;
+}
+
+static bool mix_around(const struct filter_view *v, const struct around *a,
+                       int cell, float *out)
+{
+    int numbers = v->field->lattice.numbers;
+    float x[3], y[3], z[3], sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0f;
+    weights_of(a->fraction[0], cell & 1, x);
+    weights_of(a->fraction[1], cell >> 1 & 1, y);
+    weights_of(a->fraction[2], cell >> 2, z);
+    int first = (cell & 1) + 3 * (cell >> 1 & 1) + 9 * (cell >> 2);
+    for (int k = 0; k < 8; k++) {
+        int at = first + (k & 1) + 3 * (k >> 1 & 1) + 9 * (k >> 2);
+        float weight = x[at % 3] * y[at / 3 % 3] * z[at / 9] * a->there[at];
+        weights += weight;
+        for (int i = 0; i < numbers; i++)
+            sum[i] += weight * a->cell[at][i];
+    }
+    if (!(weights >= 0.5f))
+        return false;
+    for (int i = 0; i < numbers; i++)
+        out[i] = sum[i] / weights * v->gain;
+    return true;
+}
+
+static bool fill_moved(const struct filter_view *v,
+                       const struct filter_places *places,
+                       struct filter_room *room)
+{
+    int numbers = v->field->lattice.numbers;
+    struct around around;
+    bool any = false;
+    for (int b = 0; b < FILTER_BLOCKS; b++) {
+        bool there = !isnan(places->first[b][0]) &&
+                     load_around(v, places->first[b], &around);
+        for (int k = 0; k < 8; k++) {
+            int x = 2 * (b & 3) + (k & 1), y = 2 * (b >> 2 & 3) + (k >> 1 & 1);
+            int cell = (2 * (b >> 4) + (k >> 2)) * 64 + y * 8 + x;
+            float *out = room->cells + cell * numbers;
+            any |= put_cell(room, cell, numbers,
+                            there && mix_around(v, &around, k, out));
+        }
     }
     return any;
 }
@@ -220,12 +312,17 @@ static bool drop_unlike(const struct filter_view *v, const int corner[3],
 }
 
 bool filter_view_brick(const struct filter_view *v, const int corner[3],
+                       const struct filter_places *places,
                        struct filter_room *room, struct filter_brick *out)
 {
     if (!v->field)
         return false;
     out->there = NULL;
-    if (v->aligned && v->gain == 1.0f) {
+    if (places) {
+        out->cells = room->cells;
+        if (!fill_moved(v, places, room))
+            return false;
+    } else if (v->aligned && v->gain == 1.0f) {
         out->cells = aligned_cells(v, corner);
         if (!out->cells || !v->from)
             return out->cells;

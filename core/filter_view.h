@@ -3,7 +3,7 @@
 #define CORE_FILTER_VIEW_H
 #include "core/filter.h"
 
-enum { FILTER_MAX_NUMBERS = 16, FILTER_CELLS = 512 };
+enum { FILTER_MAX_NUMBERS = 16, FILTER_CELLS = 512, FILTER_BLOCKS = 64 };
 
 struct filter_view {
     const struct filter_field *field;   /* NULL: there is nothing to see   */
@@ -30,10 +30,17 @@ struct filter_room {
 void filter_view_init(struct filter_view *view, const struct flat *from,
                       const struct filter_field *field);
 
-/* The numbers in a brick of the flat scene's lattice, which begins at a cell.
- * False: the field has no cell there, or knows it from too different a side.
- */
+/* Where the first cells of a brick's blocks are in the lattice of a view's
+ * field; NAN in the first number: nowhere. */
+struct filter_places {
+    float first[FILTER_BLOCKS][3];
+};
+
+/* The numbers in a brick of the flat scene's lattice, which begins at a cell;
+ * `places` says where its blocks were, or is NULL: where they are. False: the
+ * field has no cell there, or knows it from too different a side. */
 bool filter_view_brick(const struct filter_view *view, const int corner[3],
+                       const struct filter_places *places,
                        struct filter_room *room, struct filter_brick *out);
 
 /* The first cell of a brick. */

@@ -50,5 +50,6 @@ void flat_free(struct flat *flat)
     SCENE_ARRAYS(X)
 #undef X
     free(flat->bounds);
+    free(flat->drift);
     free(flat);
 }

@@ -14,6 +14,8 @@ struct flat {
     /* Of procedures, cell by cell: the largest of their values. */
     float *bounds;
     size_t bounds_count, bounds_capacity;
+    /* How far what is in the field moves in a frame (drift.h); or NULL. */
+    float *drift;
     /* How unit space lies: p_unit = (p - centre) unit. */
     double unit, centre[3];
     matrix to_unit, from_unit;

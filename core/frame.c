@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "core/drift.h"
 #include "core/physics/kdtree.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
@@ -412,6 +413,16 @@ static void count_trees(const struct brume_still *before,
     out->trees_kept = (uint64_t)(now->tree_uses - before->tree_uses - built);
 }
 
+/* With how far media move, where a filter asks for it. */
+static bool lay_out(struct frame_job *j, const brume_scene *scene,
+                    struct brume_error *err)
+{
+    const struct brume_options *o = j->options;
+    bool follows = o->photons.adaptive && brume_film_reach(o) > 0;
+    return plan_layout(j->flat, o, err) &&
+           (!follows || drift_find(scene, j->flat, o->threads, err));
+}
+
 bool frame_open(struct frame_job *j, brume_scene *scene,
                 const struct brume_options *options, struct brume_frame *out,
                 struct brume_error *err)
@@ -426,7 +437,7 @@ bool frame_open(struct frame_job *j, brume_scene *scene,
     j->flat = prepare(scene, options, err);
     if (still)
         count_trees(&before, still, &out->stats);
-    bool good = j->flat && plan_layout(j->flat, options, err);
+    bool good = j->flat && lay_out(j, scene, err);
     j->spent = timer_seconds() - j->start;
     out->stats.seconds_prepare = j->spent;
     return good;

@@ -124,7 +124,7 @@ struct stages plan_stages(const struct flat *f,
                           const struct brume_options *options)
 {
     struct stages s;
-    s.load = f->grids_count > 0;
+    s.load = f->tiles_count > 0;
     s.accel = f->bvh_count > 0 || f->kd_count > 0;
     s.glow = f->glows_count > 0;
     s.march = true;

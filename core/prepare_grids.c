@@ -154,6 +154,12 @@ static bool add_grid(const struct prepare *job, const struct grid *g,
     return slot != NULL;
 }
 
+/* For a grid that no ray reads. */
+static bool hold_place(const struct prepare *job, struct brume_error *err)
+{
+    return FLAT_EXTEND(job->flat, grids, 1, err) != NULL;
+}
+
 /* Grids of one file mostly lie alike: a point's place is then found once. */
 static void share_lattice(const struct flat *f, flat_field *out)
 {
@@ -249,7 +255,8 @@ bool prepare_grids(const struct prepare *job, const struct assembly *a,
 {
     const brume_scene *s = job->scene;
     for (size_t i = 0; i < s->grids_count; i++)
-        if (!add_grid(job, s->grids[i], err))
+        if (!(s->grids[i]->any_sign ? hold_place(job, err)
+                                    : add_grid(job, s->grids[i], err)))
             return false;
     for (size_t i = 0; i < s->fields_count; i++)
         if (!add_field(job, a, (int)i, err))

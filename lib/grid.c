@@ -169,7 +169,7 @@ static float clean(struct grid *g, float value, size_t samples)
         g->bad_nan += samples;
     else if (isinf(value))
         g->bad_inf += samples;
-    else if (value < 0)
+    else if (value < 0 && !g->any_sign)
         g->bad_negative += samples;
     else
         return value;

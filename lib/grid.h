@@ -34,6 +34,7 @@ struct grid {
     double clip_min[3], clip_max[3];    /* index space                     */
     double to_world[3][4];  /* index space to the file's world: p' = A p + b */
     float lowest, highest;  /* over all samples, background included       */
+    bool any_sign;          /* samples below 0 stay: a part of a velocity  */
     size_t bad_nan, bad_inf, bad_negative;  /* samples that were set to 0;
                                of particles: points that were left out     */
     size_t points;          /* particles that it was made of, or 0         */

@@ -22,6 +22,7 @@ struct vdb_entry {
     char name[64];          /* "density"; "density[1]" where names repeat  */
     char type[32];          /* "float", "vec3s", ... as OpenVDB has them   */
     bool scalar;            /* of a type that vdb_load takes               */
+    bool vector;            /* vec3s or vec3d: vdb_load_velocity           */
     bool half;              /* saved as 16-bit floats                      */
     enum vdb_class kind;
     int64_t active_voxels;  /* as the file says; -1 where it does not      */
@@ -53,11 +54,18 @@ const struct vdb_entry *vdb_choose(const struct vdb_list *list,
 struct grid *vdb_load(const char *path, const char *name, enum vdb_role role,
                       struct brume_error *err);
 
+/* The components of a velocity, a grid of vectors (vec3s or vec3d), as grids
+ * whose samples have any sign; those of a staggered grid lie on the faces of
+ * its voxels. */
+bool vdb_load_velocity(const char *path, const char *name,
+                       struct grid *component[3], struct brume_error *err);
+
 enum { VDB_SAVE_HALF = 1, VDB_SAVE_ZIP = 2 };
 
-/* Writes grids as fog volumes: samples that differ from the background are
- * active. The file appears only when complete. It holds a random identifier
- * (OpenVDB's), so its bytes differ from run to run. */
+/* Writes grids as fog volumes; three with `any_sign`, one after the other and
+ * of one name and extent, are one grid of vectors. Samples that differ from the
+ * background are active. The file appears only when complete. It holds a random
+ * identifier (OpenVDB's), so its bytes differ from run to run. */
 bool vdb_save(const char *path, const struct grid *const *grids,
               size_t count, int flags, struct brume_error *err);
 

@@ -189,8 +189,9 @@ bool vdb_check_class(const struct vdb_entry *e, const char *path,
 static void split_type(struct vdb_record *r)
 {
     static const char half[] = "_HalfFloat", prefix[] = "Tree_";
-    static const char *const scalars[] = {"float", "double", "int32", "int64",
-                                          "bool"};
+    static const char *const types[] = {"float", "double", "int32", "int64",
+                                        "bool",  "vec3s",  "vec3d"};
+    enum { SCALARS = 5 };
     struct vdb_entry *e = &r->entry;
     size_t length = strlen(r->tree), end = strlen(half);
     e->half = length > end && strcmp(r->tree + length - end, half) == 0;
@@ -201,9 +202,10 @@ static void split_type(struct vdb_record *r)
                            : r->tree;
     snprintf(e->type, sizeof e->type, "%.*s", (int)strcspn(from, "_"), from);
     char usual[64];
-    for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
-        snprintf(usual, sizeof usual, "Tree_%s_5_4_3", scalars[i]);
-        e->scalar = e->scalar || strcmp(r->tree, usual) == 0;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        snprintf(usual, sizeof usual, "Tree_%s_5_4_3", types[i]);
+        if (strcmp(r->tree, usual) == 0)
+            *(i < SCALARS ? &e->scalar : &e->vector) = true;
     }
 }
 

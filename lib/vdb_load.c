@@ -44,6 +44,19 @@ struct grid *vdb_load(const char *path, const char *name, enum vdb_role role,
     return module ? module->load(path, name, err) : NULL;
 }
 
+bool vdb_load_velocity(const char *path, const char *name,
+                       struct grid *component[3], struct brume_error *err)
+{
+    struct vdb_entry chosen;
+    if (!name || !*name) {
+        if (!choose(path, VDB_VELOCITY, &chosen, err))
+            return false;
+        name = chosen.name;
+    }
+    const struct vdb_module *module = vdb_module_for(path, err);
+    return module && module->load_velocity(path, name, component, err);
+}
+
 bool vdb_save(const char *path, const struct grid *const *grids, size_t count,
               int flags, struct brume_error *err)
 {

@@ -89,12 +89,18 @@ const vdb_record *tree_of(const vdb_file &file, const vdb_record &r)
     return nullptr;
 }
 
-bool check_record(const vdb_file &file, const vdb_record &r, brume_error *err)
+bool check_record(const vdb_file &file, const vdb_record &r, bool vector,
+                  brume_error *err)
 {
     const vdb_entry &e = r.entry;
     if (!vdb_check_class(&e, file.path, err))
         return false;
-    if (!e.scalar)
+    if (vector && !e.vector)
+        return brume_fail_file(err, file.path,
+                               "grid '%s' is of type %s (%s); a velocity is a "
+                               "grid of vectors: vec3s or vec3d",
+                               e.name, e.type, r.tree);
+    if (!vector && !e.scalar)
         return brume_fail_file(err, file.path,
                                "grid '%s' is of type %s (%s);"
                                " a scalar grid is needed: float, double, "
@@ -113,12 +119,15 @@ vdb_layout layout_of(const vdb_record &r)
     const std::string type = r.entry.type;
     vdb_layout layout = {};
     layout.compression = r.compression;
+    const unsigned terms = r.entry.vector ? 3 : 1;
     layout.bits = type == "bool";
-    layout.value = layout.bits                           ? 1
-                   : type == "double" || type == "int64" ? 8
-                                                         : 4;
-    bool real = type == "float" || type == "double";
-    layout.stored = real && r.entry.half ? 2 : layout.value;
+    layout.value = terms *
+                   (layout.bits ? 1
+                    : type == "double" || type == "int64" || type == "vec3d"
+                        ? 8
+                        : 4);
+    bool real = type == "float" || type == "double" || r.entry.vector;
+    layout.stored = real && r.entry.half ? 2 * terms : layout.value;
     return layout;
 }
 
@@ -223,15 +232,26 @@ Coord brick_of(const grid &g, const Coord &at)
                  (at.z() - g.origin[2]) / GRID_BRICK);
 }
 
+/* A scalar as it is, or that component of a vector. */
+template <typename Value> float part_of(const Value &value, int)
+{
+    return static_cast<float>(value);
+}
+
+template <typename T> float part_of(const openvdb::math::Vec3<T> &v, int part)
+{
+    return static_cast<float>(v[part]);
+}
+
 /* Tiles of any level, active or not, where they reach into the grid. */
 template <typename Tree>
-bool copy_tiles(const Tree &tree, grid &g, brume_error *err)
+bool copy_tiles(const Tree &tree, int part, grid &g, brume_error *err)
 {
     const CoordBBox whole = extent(g);
     auto tile = tree.cbeginValueAll();
     tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
     for (; tile; ++tile) {
-        const float value = static_cast<float>(tile.getValue());
+        const float value = part_of(tile.getValue(), part);
         CoordBBox box;
         tile.getBoundingBox(box);
         box.intersect(whole);
@@ -249,7 +269,7 @@ bool copy_tiles(const Tree &tree, grid &g, brume_error *err)
 
 /* OpenVDB's leaves have z fastest, our bricks x. */
 template <typename Leaf>
-bool copy_leaf(const Leaf &leaf, grid &g, brume_error *err)
+bool copy_leaf(const Leaf &leaf, int part, grid &g, brume_error *err)
 {
     const Coord at = brick_of(g, leaf.origin());
     float *brick = grid_brick(&g, at.x(), at.y(), at.z(), err);
@@ -257,63 +277,81 @@ bool copy_leaf(const Leaf &leaf, grid &g, brume_error *err)
         return false;
     for (openvdb::Index i = 0; i < GRID_BRICK_VOXELS; i++) {
         const Coord in = Leaf::offsetToLocalCoord(i);
-        brick[in.x() + GRID_BRICK * (in.y() + GRID_BRICK * in.z())] =
-            static_cast<float>(leaf.getValue(i));
+        brick[in.x() + GRID_BRICK * (in.y() + GRID_BRICK * in.z())] = part_of(
+            leaf.getValue(i), part);
     }
     return true;
 }
 
 template <typename Tree>
-bool copy_leaves(const Tree &tree, grid &g, brume_error *err)
+bool copy_leaves(const Tree &tree, int part, grid &g, brume_error *err)
 {
     const CoordBBox whole = extent(g);
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
-        if (whole.isInside(leaf->origin()) && !copy_leaf(*leaf, g, err))
+        if (whole.isInside(leaf->origin()) && !copy_leaf(*leaf, part, g, err))
             return false;
     return true;
 }
 
+/* A component of a staggered grid lies half a voxel below the middle. */
+void shift_face(grid &g, int part)
+{
+    for (int i = 0; i < 3; i++)
+        g.to_world[i][3] -= 0.5 * g.to_world[i][part];
+}
+
+/* A grid of scalars, or of the vectors' component `part`. */
 template <typename Grid>
-grid *convert(const openvdb::GridBase &base, const vdb_file &file,
+grid *convert(const openvdb::GridBase &base, int part, const vdb_file &file,
               const vdb_record &r, brume_error *err)
 {
     const auto &tree = static_cast<const Grid &>(base).tree();
     CoordBBox active;
     tree.evalActiveVoxelBoundingBox(active);
     grid_owner g(
-        make_grid(active, static_cast<float>(tree.background()), file, r, err));
+        make_grid(active, part_of(tree.background(), part), file, r, err));
     if (!g)
         return nullptr;
     std::snprintf(g->name, sizeof g->name, "%s", r.entry.name);
-    if (!copy_transform(base, *g, file, err) || !copy_tiles(tree, *g, err) ||
-        !copy_leaves(tree, *g, err))
+    if (!copy_transform(base, *g, file, err) ||
+        !copy_tiles(tree, part, *g, err) || !copy_leaves(tree, part, *g, err))
         return nullptr;
+    g->any_sign = r.entry.vector;
+    if (r.entry.vector && r.entry.kind == VDB_STAGGERED)
+        shift_face(*g, part);
     grid_finish(g.get());
     return g.release();
 }
 
-grid *convert_any(const openvdb::GridBase &base, const vdb_file &file,
+grid *convert_any(const openvdb::GridBase &base, int part, const vdb_file &file,
                   const vdb_record &r, brume_error *err)
 {
+    if (base.isType<openvdb::Vec3SGrid>())
+        return convert<openvdb::Vec3SGrid>(base, part, file, r, err);
+    if (base.isType<openvdb::Vec3DGrid>())
+        return convert<openvdb::Vec3DGrid>(base, part, file, r, err);
     if (base.isType<openvdb::FloatGrid>())
-        return convert<openvdb::FloatGrid>(base, file, r, err);
+        return convert<openvdb::FloatGrid>(base, part, file, r, err);
     if (base.isType<openvdb::DoubleGrid>())
-        return convert<openvdb::DoubleGrid>(base, file, r, err);
+        return convert<openvdb::DoubleGrid>(base, part, file, r, err);
     if (base.isType<openvdb::Int32Grid>())
-        return convert<openvdb::Int32Grid>(base, file, r, err);
+        return convert<openvdb::Int32Grid>(base, part, file, r, err);
     if (base.isType<openvdb::Int64Grid>())
-        return convert<openvdb::Int64Grid>(base, file, r, err);
-    return convert<openvdb::BoolGrid>(base, file, r, err);
+        return convert<openvdb::Int64Grid>(base, part, file, r, err);
+    return convert<openvdb::BoolGrid>(base, part, file, r, err);
 }
 
-grid *load(vdb_file &file, const std::string &name, brume_error *err)
+/* The tree of a grid with its own transform; *r: its record. */
+openvdb::GridBase::Ptr open_grid(vdb_file &file, const std::string &name,
+                                 bool vector, const vdb_record **r,
+                                 brume_error *err)
 {
-    const vdb_record *r = find(file, name);
-    if (!r) {
+    *r = find(file, name);
+    if (!*r) {
         brume_fail_file(err, file.path, "has no grid named '%s'", name.c_str());
         return nullptr;
     }
-    const vdb_record *owner = tree_of(file, *r);
+    const vdb_record *owner = tree_of(file, **r);
     if (!owner) {
         brume_fail_file(err, file.path,
                         "grid '%s' shares the tree of a grid "
@@ -321,16 +359,38 @@ grid *load(vdb_file &file, const std::string &name, brume_error *err)
                         name.c_str());
         return nullptr;
     }
-    if (!check_record(file, *r, err) || !check_record(file, *owner, err))
+    if (!check_record(file, **r, vector, err) ||
+        !check_record(file, *owner, vector, err))
         return nullptr;
     auto base = read_grid(file, *owner);
-    if (!base)
-        return nullptr;
-    if (owner != r) {
-        source from(file, *r);
+    if (base && owner != *r) {
+        source from(file, **r);
         base->readTransform(from.stream);
     }
-    return convert_any(*base, file, *r, err);
+    return base;
+}
+
+grid *load(vdb_file &file, const std::string &name, brume_error *err)
+{
+    const vdb_record *r = nullptr;
+    auto base = open_grid(file, name, false, &r, err);
+    return base ? convert_any(*base, 0, file, *r, err) : nullptr;
+}
+
+bool load_vectors(vdb_file &file, const std::string &name, grid *component[3],
+                  brume_error *err)
+{
+    const vdb_record *r = nullptr;
+    auto base = open_grid(file, name, true, &r, err);
+    grid_owner part[3];
+    for (int i = 0; base && i < 3; i++) {
+        part[i].reset(convert_any(*base, i, file, *r, err));
+        if (!part[i])
+            return false;
+    }
+    for (int i = 0; base && i < 3; i++)
+        component[i] = part[i].release();
+    return base != nullptr;
 }
 
 /* ---- writing ---- */
@@ -369,18 +429,44 @@ void fill_tree(openvdb::FloatTree &tree, const grid &g)
             }
 }
 
-openvdb::FloatGrid::Ptr to_openvdb(const grid &g, bool half)
+openvdb::math::Transform::Ptr transform_of(const grid &g)
 {
-    auto out = openvdb::FloatGrid::create(g.tile[0]);
     openvdb::Mat4R m(openvdb::Mat4R::identity());
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
             m(j, i) = g.to_world[i][j];
-    out->setTransform(openvdb::math::Transform::createLinearTransform(m));
+    return openvdb::math::Transform::createLinearTransform(m);
+}
+
+openvdb::FloatGrid::Ptr to_openvdb(const grid &g, bool half)
+{
+    auto out = openvdb::FloatGrid::create(g.tile[0]);
+    out->setTransform(transform_of(g));
     out->setName(g.name);
     out->setGridClass(openvdb::GRID_FOG_VOLUME);
     out->setSaveFloatAsHalf(half);
     fill_tree(out->tree(), g);
+    return out;
+}
+
+/* Three grids of components as one of vectors, all of whose voxels are active.
+ */
+openvdb::Vec3SGrid::Ptr vectors_of(const grid *const part[3], bool half)
+{
+    const grid &g = *part[0];
+    auto out = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
+    out->setTransform(transform_of(g));
+    out->setName(g.name);
+    out->setSaveFloatAsHalf(half);
+    auto to = out->getAccessor();
+    const CoordBBox whole = extent(g);
+    for (auto at = whole.begin(); at; ++at) {
+        const Coord c = *at;
+        openvdb::Vec3f v;
+        for (int i = 0; i < 3; i++)
+            v[i] = grid_sample(part[i], c.x(), c.y(), c.z());
+        to.setValueOn(c, v);
+    }
     return out;
 }
 
@@ -401,13 +487,33 @@ grid *load_named(const char *path, const char *name, brume_error *err)
     return result;
 }
 
+bool load_velocity(const char *path, const char *name, grid *component[3],
+                   brume_error *err)
+{
+    brume_error own = {};
+    bool good = guarded(path, &own, [&] {
+        file_owner file;
+        return vdb_file_open(&file, path, &own) &&
+               load_vectors(file, name, component, &own);
+    });
+    if (!good && err && err->code == BRUME_OK)
+        *err = own;
+    return good;
+}
+
 bool save(const char *path, const char *name, const grid *const *grids,
           size_t count, int flags, brume_error *err)
 {
     return guarded(path, err, [&] {
         openvdb::GridCPtrVec list;
+        const bool half = flags & VDB_SAVE_HALF;
         for (size_t i = 0; i < count; i++)
-            list.push_back(to_openvdb(*grids[i], flags & VDB_SAVE_HALF));
+            if (grids[i]->any_sign && i + 2 < count) {
+                list.push_back(vectors_of(grids + i, half));
+                i += 2;
+            } else {
+                list.push_back(to_openvdb(*grids[i], half));
+            }
         openvdb::io::File file(name);
         uint32_t how = openvdb::io::COMPRESS_ACTIVE_MASK;
         if (flags & VDB_SAVE_ZIP)
@@ -431,4 +537,4 @@ size_t unpack(const void *from, size_t size, void *to, size_t room)
 
 /* By VDB_MODULE_SYMBOL. */
 extern "C" __attribute__((visibility("default")))
-const vdb_module brume_vdb_module = {unpack, load_named, save};
+const vdb_module brume_vdb_module = {unpack, load_named, load_velocity, save};

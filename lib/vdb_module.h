@@ -19,6 +19,9 @@ struct vdb_module {
     /* The grid of that name, as vdb_load. */
     struct grid *(*load)(const char *path, const char *name,
                          struct brume_error *err);
+    /* As vdb_load_velocity. */
+    bool (*load_velocity)(const char *path, const char *name,
+                          struct grid *component[3], struct brume_error *err);
     /* As vdb_save, into a file of another name; errors name `path`. */
     bool (*save)(const char *path, const char *file,
                  const struct grid *const *grids, size_t count, int flags,

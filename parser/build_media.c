@@ -162,6 +162,7 @@ static void open_media(struct parser *parser, struct frame *frame)
     for (int i = 0; i < 3; i++)
         media->tint[i] = 1;
     param_defaults(build_fire_params, &media->fire);
+    media->velocity.by = transform_identity();
 }
 
 static void add_density(struct parser *parser, struct media *media,

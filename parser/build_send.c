@@ -176,6 +176,31 @@ static bool send_densities(struct parser *parser, const struct media *media,
     return true;
 }
 
+/* Grids of one file lie alike, so the velocity's where the density does. */
+static void send_velocity(const struct media *media, const transform *by,
+                          struct brume_velocity *to)
+{
+    const struct velocity *velocity = &media->velocity;
+    transform placing = velocity->by;
+
+    to->on = velocity->known;
+    if (!velocity->known)
+        return;
+    for (int i = 0; velocity->file && i < media->densities; i++)
+        if (model_density_is_grid(&media->density[i])) {
+            const struct patterned *on = &media->density[i].on;
+            placing = transform_then(&on->pattern->grid_by, &on->by);
+            break;
+        }
+    placing = transform_then(&placing, by);
+    memcpy(to->transform, placing.m, sizeof to->transform);
+    memcpy(to->grid, velocity->grid, sizeof to->grid);
+    to->voxels = velocity->units == VELOCITY_VOXELS;
+    to->scale = velocity->strength;
+    if (velocity->units == VELOCITY_PER_SECOND)
+        to->scale /= velocity->fps;
+}
+
 /* A density's colour scales what the medium does, not the fire in it. */
 static int send_medium(struct parser *parser, const struct media *media,
                        const transform *by, struct brume_error *err)
@@ -197,6 +222,7 @@ static int send_medium(struct parser *parser, const struct media *media,
     if (!send_densities(parser, media, by, &to, err) ||
         !send_fire(parser, &media->fire, by, &to.fire, err))
         return -1;
+    send_velocity(media, by, &to.velocity);
     struct intern_key key = intern_key(&to, sizeof to);
     int id = sent(parser, SENT_MEDIUM, &key);
     if (id >= 0)

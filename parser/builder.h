@@ -51,7 +51,7 @@
     X(BUMP_MAP, bump_map) X(MATERIAL_MAP, material_map) X(TILES, tiles)       \
     X(MATERIAL, material) X(INTERIOR, interior) X(MEDIA, media)               \
     X(SCATTERING, scattering) X(DENSITY, density) X(FIRE, fire)               \
-    X(TEMPERATURE, temperature) X(AMOUNT, amount)                             \
+    X(TEMPERATURE, temperature) X(AMOUNT, amount) X(VELOCITY, velocity)       \
     X(TRANSFORM, transform) X(CAMERA, camera) X(MESH_CAMERA, mesh_camera)     \
     X(BOKEH, bokeh) X(LIGHT, light) X(LOOKS_LIKE, looks_like)                 \
     X(PROJECTED_THROUGH, projected_through)                                   \

@@ -390,6 +390,88 @@ bool load_density(struct parser *parser, const struct data_file *file,
     return true;
 }
 
+/* ---- velocities -------------------------------------------------------- */
+
+static bool send_components(struct parser *parser,
+                            struct grid *const component[3], int grid[3],
+                            struct location at)
+{
+    struct brume_error err = {0};
+
+    for (int i = 0; i < 3; i++) {
+        grid[i] = brume_add_grid(parser->out->scene, component[i], &err);
+        if (grid[i] < 0)
+            return parser_relay(parser, at, &err);
+    }
+    return true;
+}
+
+/* The cache has all three, or none of them. */
+static bool find_components(struct parser *parser, const char *path,
+                            char key[3][80], struct grid *component[3])
+{
+    bool all = true;
+
+    for (int i = 0; i < 3; i++) {
+        component[i] = cache_find(parser->in->cache, path, key[i]);
+        all = all && component[i];
+    }
+    return all;
+}
+
+bool load_velocity(struct parser *parser, const struct data_file *file,
+                   int grid[3])
+{
+    struct brume_error err = {0};
+    struct grid *component[3];
+    char name[64], key[3][80];
+    bool kept[3] = {true, true, true};
+    const char *path = parser_find_file(parser, file->at, file->name,
+                                        PARSER_DATA);
+
+    if (!path || !choose_grid(parser, file, path, VDB_VELOCITY, name))
+        return false;
+    for (int i = 0; i < 3; i++)
+        snprintf(key[i], sizeof key[i], "velocity %d %s", i, name);
+    if (!find_components(parser, path, key, component)) {
+        if (!vdb_load_velocity(path, name, component, &err))
+            return parser_relay(parser, file->at, &err);
+        for (int i = 0; i < 3; i++)
+            kept[i] = cache_put(parser->in->cache, path, key[i], component[i],
+                                release_grid);
+    }
+    for (int i = 0; i < 3; i++)
+        warn_of_bad(parser, file, component[i]);
+    bool sent = send_components(parser, component, grid, file->at);
+    for (int i = 0; i < 3; i++)
+        if (!kept[i])
+            grid_free(component[i]);
+    return sent;
+}
+
+bool load_steady(struct parser *parser, const double velocity[3], int grid[3],
+                 struct location at)
+{
+    static const int32_t origin[3] = {0, 0, 0}, bricks[3] = {1, 1, 1};
+    struct brume_error err = {0};
+    struct grid *component[3];
+    bool good = true;
+
+    for (int i = 0; i < 3; i++) {
+        component[i] = grid_new(origin, bricks, (float)velocity[i], &err);
+        good = good && component[i];
+        for (int k = 0; component[i] && k < 3; k++)
+            component[i]->to_world[k][k] = 1;
+        if (component[i])
+            component[i]->any_sign = true;
+    }
+    good = good ? send_components(parser, component, grid, at)
+                : parser_relay(parser, at, &err);
+    for (int i = 0; i < 3; i++)
+        grid_free(component[i]);
+    return good;
+}
+
 /* ---- meshes ------------------------------------------------------------ */
 
 static void release_mesh(void *mesh)

@@ -39,6 +39,12 @@ struct loader {
  * the pattern. The role picks the grid where the scene names none. */
 bool load_density(struct parser *parser, const struct data_file *file,
                   enum vdb_role role, struct pattern *out);
+/* Gives core the components of a velocity of a file, or of one that is the
+ * same everywhere. False: reported. */
+bool load_velocity(struct parser *parser, const struct data_file *file,
+                   int grid[3]);
+bool load_steady(struct parser *parser, const double velocity[3], int grid[3],
+                 struct location at);
 struct model_mesh *load_mesh(struct parser *parser,
                              const struct data_file *file);
 

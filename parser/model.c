@@ -88,6 +88,7 @@ void model_media_transform(struct media *media, const transform *by)
     for (int i = 0; i < media->densities; i++)
         density_transform(&media->density[i], by);
     model_fire_transform(&media->fire, by);
+    media->velocity.by = transform_then(&media->velocity.by, by);
 }
 
 /* ---- objects ----------------------------------------------------------- */

@@ -52,6 +52,21 @@ enum fire_preset { FIRE_CYCLES, FIRE_PBRT, FIRE_HOUDINI };
 void model_fire_preset(struct fire *fire, enum fire_preset preset);
 void model_fire_transform(struct fire *fire, const transform *by);
 
+enum velocity_units { VELOCITY_PER_SECOND, VELOCITY_PER_FRAME,
+                      VELOCITY_VOXELS };
+
+/* What a medium's matter does from frame to frame. */
+struct velocity {
+    bool on, file;
+    bool known;                 /* its grids are in core                   */
+    int said;                   /* vectors and files                       */
+    double constant[3];
+    int grid[3];                /* in core, of the components              */
+    double fps, strength;
+    int units;                  /* enum velocity_units                     */
+    transform by;
+};
+
 struct media {
     double absorption[3], emission[3], scattering[3];
     int type;                   /* enum brume_phase, of scattering         */
@@ -60,8 +75,10 @@ struct media {
     struct density density[BRUME_MAX_DENSITIES];
     int densities;
     struct fire fire;
+    struct velocity velocity;
 };
-/* Applies `by` to the densities and the fire's fields that are there now. */
+/* Applies `by` to the densities, the fire's fields and the velocity that are
+ * there now. */
 void model_media_transform(struct media *media, const transform *by);
 
 struct interior {

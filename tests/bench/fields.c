@@ -65,6 +65,7 @@ static struct flat *trace(int number, uint32_t noise, uint64_t photons,
     o.frame = noise;
     o.photons.count = photons;
     o.photons.taps = TAPS;
+    o.photons.adaptive = true;
     brume_scene *scene = read_scene(number);
     require(frame_open(&job, scene, &o, &out, &err) &&
                 frame_trace(&job, &err) &&

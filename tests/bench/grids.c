@@ -27,6 +27,7 @@ struct recipe {
     double level;   /* where the optical depth is taken, of the height */
     int frames;     /* 0: a still                                      */
     bool hot;       /* has a temperature too                           */
+    double lift;    /* how fast it rises, of the height in a frame     */
     void (*fill)(point p, double time, double out[2]);
 };
 
@@ -224,10 +225,13 @@ static void fill_flight(point p, double time, double out[2])
     out[0] = noise_step(0.0, 0.35, s);
 }
 
+/* What the smoke's noise rises by in a frame. */
+#define LIFT 0.018
+
 /* A plume that widens as it rises and sways. */
 static void fill_smoke(point p, double time, double out[2])
 {
-    double up = p.y + 0.5, lift = 0.018 * time;
+    double up = p.y + 0.5, lift = LIFT * time;
     double wide = 0.055 + 0.26 * up;
     if (p.x * p.x + p.z * p.z > 4.0 * wide * wide)
         return;
@@ -245,15 +249,15 @@ static void fill_smoke(point p, double time, double out[2])
 }
 
 static const struct recipe recipes[] = {
-    {"t1-cloud", {128, 128, 128}, 1.15, 60, 0.5, 0, false, fill_cloud},
-    {"t1-fog", {128, 128, 128}, 2.0, 5, 1 / 21.0, 0, false, fill_fog},
-    {"t2-flame1", {300, 250, 200}, 0.72, 25, 0.5, 0, true, fill_flame1},
-    {"t2-flame2", {300, 250, 200}, 0.87, 25, 0.5, 0, true, fill_flame2},
-    {"t2-flame3", {60, 60, 60}, 0.64, 25, 0.5, 0, true, fill_flame3},
-    {"t2-campfire", {70, 70, 80}, 1.15, 25, 0.5, 0, true, fill_campfire},
-    {"t2-explosion", {80, 100, 80}, 0.5, 50, 0.5, 0, true, fill_explosion},
-    {"t3-flight", {256, 96, 256}, 1.0, 10, 0.5, 0, false, fill_flight},
-    {"t4-smoke", {96, 160, 96}, 2.0, 32, 0.5, 60, false, fill_smoke},
+    {"t1-cloud", {128, 128, 128}, 1.15, 60, 0.5, 0, false, 0, fill_cloud},
+    {"t1-fog", {128, 128, 128}, 2.0, 5, 1 / 21.0, 0, false, 0, fill_fog},
+    {"t2-flame1", {300, 250, 200}, 0.72, 25, 0.5, 0, true, 0, fill_flame1},
+    {"t2-flame2", {300, 250, 200}, 0.87, 25, 0.5, 0, true, 0, fill_flame2},
+    {"t2-flame3", {60, 60, 60}, 0.64, 25, 0.5, 0, true, 0, fill_flame3},
+    {"t2-campfire", {70, 70, 80}, 1.15, 25, 0.5, 0, true, 0, fill_campfire},
+    {"t2-explosion", {80, 100, 80}, 0.5, 50, 0.5, 0, true, 0, fill_explosion},
+    {"t3-flight", {256, 96, 256}, 1.0, 10, 0.5, 0, false, 0, fill_flight},
+    {"t4-smoke", {96, 160, 96}, 2.0, 32, 0.5, 60, false, LIFT, fill_smoke},
 };
 enum { RECIPES = sizeof recipes / sizeof *recipes };
 
@@ -320,14 +324,38 @@ static struct grid *make_grid(const struct samples *s, int which,
     return g;
 }
 
+/* A component of what the recipe says of its velocity, in scene units a second
+ * of 24 frames, on voxels of a quarter of the height and wider than the box. */
+static struct grid *make_velocity(const struct recipe *r, int axis)
+{
+    const int32_t origin[3] = {-8, -8, -8}, bricks[3] = {2, 2, 2};
+    struct grid *g = grid_new(origin, bricks, 0.0f, &err);
+    require(g != NULL);
+    double side = 0.25 * r->height;
+    float value = axis == 1 ? (float)(24.0 * r->lift * r->height) : 0.0f;
+    for (int i = 0; i < 8; i++)
+        require(grid_set_tile(g, i & 1, i >> 1 & 1, i >> 2, value, &err));
+    for (int i = 0; i < 3; i++)
+        g->to_world[i][i] = side;
+    snprintf(g->name, sizeof g->name, "velocity");
+    g->any_sign = true;
+    grid_finish(g);
+    return g;
+}
+
 static void save(const struct samples *s, const char *path)
 {
-    struct grid *grid[2] = {make_grid(s, 0, "density"), NULL};
-    size_t count = s->recipe->hot ? 2 : 1;
-    if (count == 2)
-        grid[1] = make_grid(s, 1, "temperature");
-    const struct grid *const grids[2] = {grid[0], grid[1]};
-    require(vdb_save(path, grids, count, VDB_SAVE_HALF | VDB_SAVE_ZIP, &err));
+    struct grid *grid[5];
+    const struct grid *all[5];
+    size_t count = 0;
+    grid[count++] = make_grid(s, 0, "density");
+    if (s->recipe->hot)
+        grid[count++] = make_grid(s, 1, "temperature");
+    for (int i = 0; s->recipe->lift > 0.0 && i < 3; i++)
+        grid[count++] = make_velocity(s->recipe, i);
+    for (size_t i = 0; i < count; i++)
+        all[i] = grid[i];
+    require(vdb_save(path, all, count, VDB_SAVE_HALF | VDB_SAVE_ZIP, &err));
     for (size_t i = 0; i < count; i++)
         grid_free(grid[i]);
 }

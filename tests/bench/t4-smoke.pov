@@ -3,5 +3,5 @@
 #include "bench.inc"
 #declare Frame = (clock_on ? frame_number - 1 : 30);
 Look(2, 0)
-Container(<96, 160, 96>, 2 / 160,
-          Cloudy(concat("t4-smoke_", str(Frame, -2, 0), ".vdb"), 32, 0.8))
+#declare File = concat("t4-smoke_", str(Frame, -2, 0), ".vdb");
+Container(<96, 160, 96>, 2 / 160, Drifting(File, 32, 0.8))

@@ -3,7 +3,7 @@
 # they are split, and settings that say what is wrong with them.
 . "$(dirname "$0")/lib"
 
-# fog TEMPORAL: a ball of fog on its way.
+# fog TEMPORAL VELOCITY: a ball of fog on its way.
 fog()
 {
     cat <<END
@@ -13,7 +13,8 @@ global_settings { integrator photon
 camera { location <0, 0, -4> look_at 0 }
 light_source { <10, 10, -10> rgb 3 }
 sphere { <clock, 0, 0>, 1 hollow pigment { rgbt 1 }
-    interior { media { scattering { 1, 2 } absorption 0.2 } } }
+    interior { media { scattering { 1, 2 } absorption 0.2
+        $2 } } }
 END
 }
 
@@ -56,6 +57,21 @@ all_same none off
 fog 'temporal { 2, 4, 8, 4, 2 }' >written.pov
 brume written.pov $film +Owritten
 all_same five written
+
+new_case 'along a velocity'
+fog '' 'velocity { x / 8 units per_frame }' >drift.pov
+brume drift.pov $film +Odrift
+exits 0
+cmp -s drift5.png best5.png && complain 'the velocity has no effect'
+fog '' 'velocity { x * 3 fps 24 }' >drift.pov
+brume drift.pov $film +Oseconds
+all_same drift seconds
+for i in 1 2 3; do
+    brume drift.pov $film +Opart --shard $i/3
+    exits 0
+done
+all_same drift part
+rm part*
 
 new_case 'in parts'
 for parts in 2 3 8; do
@@ -103,6 +119,27 @@ brume five.pov --explain +KFF9
 grep -q '^filter  *yes .*mean over' printed || complain 'no filter is planned'
 
 new_case 'what is wrong is told'
+cp "$ROOT/tests/data/kinds.vdb" .
+fog '' 'velocity { vdb "kinds.vdb" "wind" }' >bad.pov
+brume bad.pov --check
+exits 5
+says "has no grid named 'wind'"
+fog '' 'velocity { vdb "kinds.vdb" "real" }' >bad.pov
+brume bad.pov --check
+exits 5
+says 'a velocity is a grid of vectors'
+fog '' 'velocity { }' >bad.pov
+brume bad.pov --check
+exits 1
+says "'velocity' needs a vector or a file"
+fog '' 'velocity { x vdb "kinds.vdb" }' >bad.pov
+brume bad.pov --check
+exits 1
+says 'takes a vector or a file, and only one'
+fog '' 'velocity { x units voxels }' >bad.pov
+brume bad.pov --check
+exits 1
+says "'voxels' are those of a file"
 fog 'temporal 4' >bad.pov
 brume bad.pov --check
 exits 1

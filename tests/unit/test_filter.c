@@ -1,63 +1,16 @@
 /* The field of scattered light as a mean over frames, and films that take it:
  * variances against what the weights must give for noise that is independent
  * from frame to frame, splits against the whole. */
-#include "tests/unit/truth.h"
+#include "tests/unit/filter_scene.h"
 #include <stdlib.h>
 #include <string.h>
-#include "core/filter.h"
-#include "core/frame.h"
 
-enum { SIDE = 8, PIXELS = SIDE * SIDE, PHOTONS = 2000 };
-
-/* A ball of fog at x, lit by a lamp; g as Henyey and Greenstein have it. */
 static brume_scene *fog_ball(double x, double g, double eye)
 {
-    struct brume_globals globals = BRUME_GLOBALS_INIT;
-    struct brume_camera camera = BRUME_CAMERA_INIT;
-    struct brume_light lamp = BRUME_LIGHT_INIT;
-    struct brume_medium m = truth_medium(0.3, 3.0, g);
-    struct brume_shape ball = BRUME_SHAPE_INIT;
-    globals.media_multiple = true;
-    brume_scene *s = truth_scene(&globals, 4.0, 1.0);
-    camera.location[0] = eye;
-    camera.location[2] = -4.0;
-    assert_true(brume_set_camera(s, &camera, truth_error()));
-    lamp.location[1] = 5.0;
-    assert_true(brume_add_light(s, &lamp, truth_error()) >= 0);
-    ball.a[0] = x;
-    truth_fill(s, ball, &m);
-    return s;
-}
-
-static struct brume_options options(int taps, uint32_t frame)
-{
-    struct brume_options o = BRUME_OPTIONS_INIT;
-    o.width = o.height = SIDE;
-    o.integrator = BRUME_INTEGRATOR_PHOTON;
-    o.backend = BRUME_BACKEND_CPU;
-    o.spp = 2;
-    o.frame = frame;
-    o.photons.count = PHOTONS;
-    o.photons.spacing = 0.125;
-    assert_true(brume_film_taps(&o.photons, taps));
-    return o;
+    return fog_scene(&(struct fog){.x = x, .eye = eye, .g = g, .lamp = 1.0});
 }
 
 /* ---- fields ------------------------------------------------------------- */
-
-static struct flat *trace(brume_scene *scene, const struct brume_options *o,
-                          struct filter_field *field)
-{
-    static struct brume_frame out;
-    static struct frame_job job;
-    assert_true(frame_open(&job, scene, o, &out, truth_error()));
-    assert_true(frame_trace(&job, truth_error()));
-    assert_true(filter_keep(job.flat, job.power, field, truth_error()));
-    brume_scene_free(scene);
-    struct flat *flat = job.flat;
-    job.flat = NULL;
-    return flat;
-}
 
 /* Frames of a still scene in groups of `taps`, of each of which a filter makes
  * one; the variance over the groups is summed over all cells. */
@@ -72,12 +25,12 @@ static double variance_of(int taps, uint32_t first)
     for (int group = 0; group < GROUPS; group++) {
         struct flat *flat = NULL;
         for (int k = 0; k < taps; k++) {
-            struct brume_options o = options(5, first++);
+            struct brume_options o = fog_options(5, first++);
             flat_free(flat);
-            flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &fields[k]);
+            flat = fog_trace(fog_ball(0.0, 0.0, 0.0), &o, &fields[k]);
             list[k] = &fields[k];
         }
-        struct brume_options o = options(taps, 0);
+        struct brume_options o = fog_options(taps, 0);
         assert_true(filter_mean(flat, list, o.photons.weight, taps / 2, 1,
                                 truth_error()));
         count = flat->radiance_count;
@@ -117,11 +70,11 @@ static void check_response(int taps, const double *frequency,
 {
     struct filter_field field[5];
     const struct filter_field *list[5];
-    struct brume_options o = options(taps, 1);
+    struct brume_options o = fog_options(taps, 1);
     struct flat *flat = NULL;
     for (int k = 0; k < taps; k++) {
         flat_free(flat);
-        flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
+        flat = fog_trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
         list[k] = &field[k];
     }
     for (int i = 0; i < 3; i++) {
@@ -179,12 +132,12 @@ static void filter__adapts_to_change(void **state)
     double error[3] = {0}, one = 0.0;
     struct filter_field field[TAPS], truth;
     const struct filter_field *list[TAPS];
-    struct brume_options o = options(5, 77);
+    struct brume_options o = fog_options(5, 77);
     o.photons.count = 2000000;
-    flat_free(trace(fog_ball(0.0, 0.0, 0.0), &o, &truth));
+    flat_free(fog_trace(fog_ball(0.0, 0.0, 0.0), &o, &truth));
     for (int k = 0; k < TAPS; k++) {
-        o = options(5, 100 + (uint32_t)k);
-        struct flat *flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
+        o = fog_options(5, 100 + (uint32_t)k);
+        struct flat *flat = fog_trace(fog_ball(0.0, 0.0, 0.0), &o, &field[k]);
         list[k] = &field[k];
         if (k < TAPS - 1) {
             flat_free(flat);
@@ -224,8 +177,8 @@ static void filter__keeps_what_does_not_change(void **state)
 {
     (void)state;
     struct filter_field field;
-    struct brume_options o = options(5, 1);
-    struct flat *flat = trace(fog_ball(0.0, 0.0, 0.0), &o, &field);
+    struct brume_options o = fog_options(5, 1);
+    struct flat *flat = fog_trace(fog_ball(0.0, 0.0, 0.0), &o, &field);
     const struct filter_field *all[5] = {&field, &field, &field, &field,
                                          &field};
     const struct filter_field *end[5] = {NULL, NULL, &field, &field, &field};
@@ -247,7 +200,7 @@ static void filter__keeps_what_does_not_change(void **state)
 static void filter__fields_lie_in_space(void **state)
 {
     (void)state;
-    struct brume_options o = options(3, 1);
+    struct brume_options o = fog_options(3, 1);
     struct filter_field field[3];
     const struct filter_field *list[3] = {&field[0], &field[1], &field[2]};
     struct flat *flat = NULL;
@@ -255,7 +208,7 @@ static void filter__fields_lie_in_space(void **state)
     for (int i = 0; i < 3; i++) {
         flat_free(flat);
         o.photons.spacing = i == 1 ? 0.11 : 0.125;
-        flat = trace(fog_ball(2.0, 0.0, 0.0), &o, &field[i]);
+        flat = fog_trace(fog_ball(2.0, 0.0, 0.0), &o, &field[i]);
     }
     /* The last one's lattice, without its own field: all is interpolated. */
     list[2] = list[0] = NULL;
@@ -282,8 +235,8 @@ static void filter__lattices_of_a_film_agree(void **state)
     (void)state;
     struct filter_field field[2];
     for (int i = 0; i < 2; i++) {
-        struct brume_options o = options(3, 1);
-        flat_free(trace(fog_ball(0.3 * i, 0.0, 0.0), &o, &field[i]));
+        struct brume_options o = fog_options(3, 1);
+        flat_free(fog_trace(fog_ball(0.3 * i, 0.0, 0.0), &o, &field[i]));
     }
     assert_true(field[0].lattice.side == field[1].lattice.side);
     for (int k = 0; k < 3; k++) {
@@ -300,13 +253,14 @@ static void filter__lattices_of_a_film_agree(void **state)
 static void filter__peaked_media_keep_to_the_eye(void **state)
 {
     (void)state;
-    struct brume_options o = options(3, 1);
+    struct brume_options o = fog_options(3, 1);
     for (int moved = 0; moved < 2; moved++) {
         struct filter_field field[2];
         o.frame = 1;
-        flat_free(trace(fog_ball(0.0, 0.7, moved ? 2.0 : 0.0), &o, &field[0]));
+        flat_free(
+            fog_trace(fog_ball(0.0, 0.7, moved ? 2.0 : 0.0), &o, &field[0]));
         o.frame = 2;
-        struct flat *flat = trace(fog_ball(0.0, 0.7, 0.0), &o, &field[1]);
+        struct flat *flat = fog_trace(fog_ball(0.0, 0.7, 0.0), &o, &field[1]);
         assert_true(flat->view.field.eye == 0);
         const struct filter_field *list[3] = {&field[0], &field[1], NULL};
         assert_true(
@@ -335,7 +289,7 @@ static void make_film(int taps, int from, int to, bool backward,
                       struct made *out)
 {
     struct brume_film *film = brume_film_new(NULL, truth_error());
-    struct brume_options o = options(taps, 0);
+    struct brume_options o = fog_options(taps, 0);
     int reach = brume_film_reach(&o), low = from - reach, high = to + reach;
     assert_non_null(film);
     low = low < 0 ? 0 : low;
@@ -387,7 +341,7 @@ static void film__without_a_filter_frames_are_stills(void **state)
     static struct made film;
     make_film(1, 0, FRAMES - 1, false, &film);
     for (int i = 0; i < FRAMES; i++) {
-        struct brume_options o = options(1, (uint32_t)i);
+        struct brume_options o = fog_options(1, (uint32_t)i);
         struct brume_frame f;
         brume_scene *s = fog_ball(0.05 * i, 0.0, 0.0);
         assert_true(brume_render(s, &o, &f, truth_error()));
@@ -406,7 +360,7 @@ static void film__ring_is_as_long_as_the_filter(void **state)
         struct brume_film *made = brume_film_new(NULL, truth_error());
         uint64_t one = 0;
         for (int i = 0; i < FRAMES + 4; i++) {
-            struct brume_options o = options(taps, (uint32_t)i);
+            struct brume_options o = fog_options(taps, (uint32_t)i);
             int centre = i - taps / 2;
             assert_true(brume_film_push(made, fog_ball(0.0, 0.0, 0.0), &o, true,
                                         truth_error()));
@@ -435,7 +389,7 @@ static void film__tells_what_is_missing(void **state)
     (void)state;
     struct brume_error err = {0};
     struct brume_frame f;
-    struct brume_options o = options(3, 4);
+    struct brume_options o = fog_options(3, 4);
     struct brume_film *film = brume_film_new(NULL, truth_error());
     assert_false(brume_film_next(film, &f, &err));
     assert_int_equal(err.code, BRUME_ERR_USAGE);
@@ -466,7 +420,7 @@ static void film__stops_where_it_is_told_to(void **state)
     struct brume_error err = {0};
     struct brume_frame f;
     struct brume_film_events events = {.user = &calls, .progress = stop_it};
-    struct brume_options o = options(1, 0);
+    struct brume_options o = fog_options(1, 0);
     struct brume_film *film = brume_film_new(&events, truth_error());
     o.spp = 60000;
     assert_true(brume_film_push(film, fog_ball(0.0, 0.0, 0.0), &o, true,

@@ -267,6 +267,12 @@ static void read_whole(const char *file)
     fclose(f);
 }
 
+static void free_parts(struct grid *const part[3])
+{
+    for (int i = 0; i < 3; i++)
+        grid_free(part[i]);
+}
+
 /* Whatever the bytes, a grid or an error. */
 static bool survives(const unsigned char *bytes, size_t count,
                      const char *const *names)
@@ -283,6 +289,12 @@ static bool survives(const unsigned char *bytes, size_t count,
         all = all && g;
         grid_free(g);
     }
+    struct brume_error err = {0};
+    struct grid *part[3];
+    if (vdb_load_velocity(path, NULL, part, &err))
+        free_parts(part);
+    else
+        assert_true(err.code != BRUME_OK && strstr(err.text, path));
     return all;
 }
 
@@ -343,6 +355,71 @@ static void test_vdb__damaged_fire_is_an_error(void **state)
     free(broken);
 }
 
+/* Any sign, each part its own; what was written is read. */
+static void test_vdb__velocities(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    const int32_t origin[3] = {-8, 0, 8}, bricks[3] = {1, 2, 1};
+    struct grid *made[3], *part[3];
+    for (int i = 0; i < 3; i++) {
+        made[i] = grid_new(origin, bricks, 0.0f, &err);
+        float *brick = grid_brick(made[i], 0, 1, 0, &err);
+        for (int v = 0; v < GRID_BRICK_VOXELS; v++)
+            brick[v] = (float)((i - 1) * 100 + v);
+        for (int k = 0; k < 3; k++)
+            made[i]->to_world[k][k] = 0.5;
+        strcpy(made[i]->name, "vel");
+        made[i]->any_sign = true;
+        grid_finish(made[i]);
+    }
+    assert_true(made[0]->lowest == -100.0f);
+    assert_int_equal(made[0]->bad_negative, 0);
+    const struct grid *const all[3] = {made[0], made[1], made[2]};
+    assert_true(vdb_save(path, all, 3, VDB_SAVE_HALF | VDB_SAVE_ZIP, &err));
+    assert_true(vdb_load_velocity(path, NULL, part, &err));
+    for (int i = 0; i < 3; i++) {
+        assert_true(part[i]->any_sign);
+        assert_true(grid_sample(part[i], -8, 8, 8) == (float)(i - 1) * 100.0f);
+        assert_true(grid_sample(part[i], -7, 9, 8) ==
+                    (float)((i - 1) * 100 + 9));
+        assert_true(grid_sample(part[i], -8, 0, 8) == 0.0f);
+        assert_true(part[i]->to_world[0][0] == 0.5 &&
+                    part[i]->to_world[0][3] == 0.0);
+    }
+    free_parts(part);
+    free_parts(made);
+    assert_true(
+        vdb_load_velocity("tests/data/kinds.vdb", "velocity", part, &err));
+    free_parts(part);
+    assert_false(vdb_load_velocity("tests/data/kinds.vdb", "real", part, &err));
+    assert_non_null(strstr(err.text, "a velocity is a grid of vectors"));
+}
+
+/* Those of a staggered grid are on the faces of its voxels. */
+static void test_vdb__staggered_fire(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    struct grid *part[3];
+    if (access(CAMPFIRE, R_OK) != 0) {
+        print_message("no " CAMPFIRE " here\n");
+        skip();
+    }
+    struct grid *g = vdb_load(CAMPFIRE, NULL, VDB_DENSITY, &err);
+    assert_non_null(g);
+    assert_true(vdb_load_velocity(CAMPFIRE, NULL, part, &err));
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            assert_float_equal(part[i]->to_world[k][3] - g->to_world[k][3],
+                               i == k ? -0.5 / 30.0 : 0.0, 1e-6);
+    /* Fire rises. */
+    assert_true(part[2]->highest > 3.0f * part[0]->highest);
+    assert_true(part[2]->lowest < 0.0f);
+    free_parts(part);
+    grid_free(g);
+}
+
 static void test_vdb__loads_real_fire(void **state)
 {
     (void)state;
@@ -380,6 +457,8 @@ int main(void)
         cmocka_unit_test(test_vdb__grids_are_chosen_by_name),
         cmocka_unit_test(test_vdb__damaged_files_are_errors),
         cmocka_unit_test(test_vdb__damaged_fire_is_an_error),
+        cmocka_unit_test(test_vdb__velocities),
+        cmocka_unit_test(test_vdb__staggered_fire),
         cmocka_unit_test(test_vdb__loads_real_fire),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

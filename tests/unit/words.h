@@ -204,6 +204,8 @@ static const struct words_scene words_scenes[] = {
                                  "@density { % }@ } } }"),
     WORDS_IN(FIRE, WORDS_GLOW "interior { media { absorption 1 "
                               "@fire { temperature { spherical } % }@ } } }"),
+    WORDS_IN(VELOCITY, WORDS_GLOW "interior { media { scattering { 1, 1 } "
+                                  "@velocity { y % }@ } } }"),
     WORDS_IN(TEMPERATURE, WORDS_GLOW "interior { media { absorption 1 fire { "
                                      "temperature { % } } } } }"),
     WORDS_IN(AMOUNT, WORDS_GLOW "interior { media { absorption 1 fire { "
@@ -576,6 +578,9 @@ static const struct words_use words_uses[] = {
                "fade_power 1 fade_distance 3 "
                "fade_colour rgb x",
                WORDS_GLASS, "fading in interiors"),
+    WORDS_THERE(VELOCITY, "vdb", "vdb \"tests/data/kinds.vdb\"", "y",
+                WORDS_GLOW "interior { media { scattering { 1, 1 } "
+                           "velocity { % } } } }"),
     WORDS_USE(FIRE, "reference", "reference 1500", NULL),
 
     WORDS_USE(VOLUME_PHOTONS, "preset", "preset paper", NULL),
