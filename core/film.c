@@ -50,16 +50,15 @@ size_t film_pixels(const struct film *film)
 
 static double line_count(const struct film *f)
 {
-    return pixel_lines(f->samples, 0, f->lines) +
-           pixel_lines(f->samples, 1, f->lines);
+    return pixel_lines(f->samples, f->lines);
 }
 
 /* Mean over the samples of one half. */
-static double half_mean(const struct film *f, const film_pixel *p, int half,
-                        int channel)
+static double half_mean(const struct film *f, const film_pixel *p,
+                        uint32_t half, int channel)
 {
-    uint32_t paths = (f->samples + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t lines = pixel_lines(f->samples, half, f->lines);
+    uint32_t paths = pixel_samples(f->samples, half);
+    uint32_t lines = pixel_samples(pixel_lines(f->samples, f->lines), half);
     return (paths ? p->path[half][channel] / paths : 0.0) +
            (lines ? p->line[half][channel] / lines : 0.0);
 }

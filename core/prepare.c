@@ -165,15 +165,30 @@ static bool add_eye(struct flat *f, struct brume_error *err)
     return out != NULL || set.count == 0;
 }
 
+/* Made only where something burns: it takes longer than small pictures. */
+static bool add_blackbody(const struct prepare *job, struct brume_error *err)
+{
+    const brume_scene *s = job->scene;
+    blackbody_table *table = FLAT_EXTEND(job->flat, blackbody, 1, err);
+    bool burns = false;
+    if (!table)
+        return false;
+    for (size_t i = 0; i < s->media_count; i++)
+        burns |= s->media[i].fire.on != 0;
+    if (burns)
+        blackbody_fill(table);
+    else
+        memset(table, 0, sizeof *table);
+    return true;
+}
+
 static bool prepare_all(const struct prepare *job, const struct assembly *a,
                         struct brume_error *err)
 {
     struct flat *f = job->flat;
     const brume_scene *s = job->scene;
-    blackbody_table *table = FLAT_EXTEND(f, blackbody, 1, err);
-    if (!table)
+    if (!add_blackbody(job, err))
         return false;
-    blackbody_fill(table);
     set_unit(f, a);
     set_camera(f, &s->camera);
     set_globals(f, &s->globals);

@@ -153,6 +153,11 @@ static void sample_layer(void *context, size_t z, int thread)
     }
 }
 
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 /* Largest of the samples from `reach` half cells before a cell to as far
  * behind it. */
 static float samples_near(const struct procedure *p, const int cell[3],
@@ -171,7 +176,7 @@ static float samples_near(const struct procedure *p, const int cell[3],
         for (int y = first[1]; y <= last[1]; y++) {
             const float *row = p->sample + nx * ((size_t)y + ny * (size_t)z);
             for (int x = first[0]; x <= last[0]; x++)
-                most = fmaxf(most, row[x]);
+                most = larger(row[x], most);
         }
     return most;
 }
@@ -186,7 +191,7 @@ static void bound_cells(struct procedure *p)
     for (int i = 0; i < 3; i++)
         n[i] = 2 * (size_t)p->cells[i] + 1;
     for (size_t i = 0; i < n[0] * n[1] * n[2]; i++)
-        all = fmaxf(all, p->sample[i]);
+        all = larger(p->sample[i], all);
     for (int z = 0; z < p->cells[2]; z++)
         for (int y = 0; y < p->cells[1]; y++)
             for (int x = 0; x < p->cells[0]; x++) {
@@ -216,6 +221,20 @@ static bool sample_cells(struct procedure *p, int threads,
     parallel_for(threads, 2 * (size_t)p->cells[2] + 1, sample_layer, p, NULL);
     bound_cells(p);
     return true;
+}
+
+/* Whether bounds matter: where a medium with the field takes light away. */
+static bool attenuates(const struct procedure *p, int field)
+{
+    const brume_scene *s = p->scene;
+    for (size_t i = 0; i < s->media_count; i++) {
+        const struct brume_medium *m = &s->media[i];
+        for (int c = 0; c < 3; c++)
+            if (m->scattering[c] + m->absorption[c] > 0.0 &&
+                medium_uses(m, field))
+                return true;
+    }
+    return false;
 }
 
 /* Free paths across a cell of the mean bound in the thickest of the media
@@ -293,7 +312,7 @@ bool prepare_function(const struct prepare *job, const struct assembly *a,
         return true;
     widen(&p.box);
     bool good = true;
-    int along = FEW_CELLS;
+    int along = attenuates(&p, field) ? FEW_CELLS : LEAST_CELLS;
     do {
         set_cells(&p, along);
         good = sample_cells(&p, job->threads, err);

@@ -3,6 +3,7 @@
 #ifndef CORE_PHYSICS_CELL_TABLE_H
 #define CORE_PHYSICS_CELL_TABLE_H
 #include "core/physics/hd.h"
+#include "core/physics/real.h"
 
 HD_TABLE(uint32_t, cell_random, 4098) = {
     3499211612, 581869302, 3890346734, 3586334585, 545404204, 4161255391,

@@ -33,7 +33,7 @@ HD bool far_stretch(const flat_scene *s, const container_set *set, vec3 o,
         double before = line->tau[0] + line->tau[1] + line->tau[2];
         float end = i < FAR_PARTS - 1 ? t0 + step * (float)(i + 1) : t1;
         line_integrate(s, set, o, d, t0 + step * (float)i, end, 0.0f, false,
-                       false, 0.5f, line);
+                       false, line_jitter_make(0.5f, 0.5f), line);
         if (line->tau[0] + line->tau[1] + line->tau[2] > before)
             *far = end;
         if (far_thinnest(line) >= depth)

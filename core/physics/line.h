@@ -7,10 +7,20 @@
  * out in closed form.
  *
  * A density that is a function has no planes at which it is known: rays
- * through such media take one sample at a jittered place of each cell of the
- * majorants and each voxel, more in thick ones. Emission is then unbiased, but
- * for what half the variance of the optical depth before it makes of the
- * transmittance: of parts of depth D at most D^2 / 8 each. */
+ * through such media take samples at jittered places of each cell of the
+ * majorants and each voxel, more in thick ones. Two sets of them, X and Y, each
+ * of which alone tells the optical depth without bias, are taken for the
+ * complex number
+ *     Z = (X + Y) / 2 + i (X - Y) / 2 = (X (1 + i) + Y (1 - i)) / 2,
+ * and the real part of what comes of it is the answer: exp(-(X + Y) / 2)
+ * cos((X - Y) / 2) for the transmittance, and likewise for emission. As
+ * (1 + i)^2 is imaginary, the variance k2 of X drops out, for which exp(-X)
+ * alone would be exp(k2 / 2) too large. Of its further cumulants remains the
+ * factor
+ *     exp(k3 / 12 - k4 / 48 - ...),
+ * exactly 1 where X and Y are normal. Parts whose bounds make a depth D at most
+ * add up to |k3| / 12 <= D^2 / 125 times the depth of the bounds, for a density
+ * that is 0 or its bound by chance. */
 #ifndef CORE_PHYSICS_LINE_H
 #define CORE_PHYSICS_LINE_H
 #include "core/physics/fmath.h"
@@ -26,9 +36,16 @@ enum { LINE_LATTICES = (SCENE_MAY & MAY_MANY)    ? 20
 
 typedef struct {
     double tau[3];          /* optical depth: long sums, so double         */
+    float odds[3];          /* of functions, half of what two sets of
+                               samples tell of it differently              */
     rgb radiance;           /* emitted toward the ray's origin, attenuated */
     uint32_t overflow;      /* media that were left out                    */
 } line_integral;
+
+/* Places of samples, independent and uniform in [0, 1). */
+typedef struct {
+    float first, second;
+} line_jitter;
 
 /* A voxel lattice along the ray. */
 typedef struct {
@@ -43,7 +60,8 @@ typedef struct {
     bool emission;          /* the radiance is wanted                      */
     bool scattered;         /* ... and what the field's light gives        */
     bool sampled;           /* some density is a function                  */
-    float jitter;           /* in [0, 1): place of the next sample         */
+    float rate;             /* ... and takes so many samples per length    */
+    line_jitter jitter;     /* places of the next samples                  */
     int lattices;
     line_lattice lattice[LINE_LATTICES];
 } line_job;
@@ -196,24 +214,33 @@ HD float line_reach(float sigma, float length)
                        : -fm_expm1(-tau) / sigma;
 }
 
-HD float line_half_channel(float source, float sigma, float length,
-                           double *tau)
+/* What stands for exp(-depth) of a depth told twice: with half the difference
+ * `odds`. */
+HD float line_pass(double tau, float odds)
 {
-    float transmittance = fm_exp((float)-*tau);
-    *tau += (double)sigma * (double)length;
-    return source == 0.0f ? 0.0f
-                          : transmittance * source * line_reach(sigma, length);
+    float mean = fm_exp((float)-tau);
+    return scene_may(MAY_FUNCTIONS) && odds != 0.0f ? mean * fm_cos(odds)
+                                                    : mean;
 }
 
-/* Adds one half piece of constant coefficients. */
+HD float line_half_channel(float source, float sigma, float length, float odds,
+                           double *tau)
+{
+    float seen = source == 0.0f ? 0.0f
+               : line_pass(*tau, odds) * source * line_reach(sigma, length);
+    *tau += (double)sigma * (double)length;
+    return seen;
+}
+
+/* Adds a part of constant coefficients. */
 HD void line_half(line_integral *out, const line_point *p, float length)
 {
     out->radiance.r += line_half_channel(p->source.r, p->sigma_t.r, length,
-                                         &out->tau[0]);
+                                         out->odds[0], &out->tau[0]);
     out->radiance.g += line_half_channel(p->source.g, p->sigma_t.g, length,
-                                         &out->tau[1]);
+                                         out->odds[1], &out->tau[1]);
     out->radiance.b += line_half_channel(p->source.b, p->sigma_t.b, length,
-                                         &out->tau[2]);
+                                         out->odds[2], &out->tau[2]);
 }
 
 HD bool line_piece_empty(const media_walk *w)
@@ -236,19 +263,107 @@ HD float line_depth(const line_job *job, const media_walk *w, float length)
     return sum * length;
 }
 
-/* From t on over `length`, by samples. */
+/* Samples per length of a line through a medium that is a function. */
+HD float line_rate(const flat_medium *m, const lattice_walk *w)
+{
+    const float along = 12.0f;
+    int most = m->cells[0] > m->cells[1] ? m->cells[0] : m->cells[1];
+    most = most > m->cells[2] ? most : m->cells[2];
+    return along * vec3_length(w->d) / (float)most;
+}
+
+/* The next place, in [0, 1), of those that fill it evenly. */
+HD float line_place(float *jitter)
+{
+    const float golden = 0.61803399f;
+    float at = *jitter;
+    *jitter += golden;
+    *jitter -= *jitter >= 1.0f ? 1.0f : 0.0f;
+    return at;
+}
+
+/* Int_0^1 exp(-z x) dx of z = re + i im, in its place. */
+HD void line_complex_reach(float *re, float *im)
+{
+    float x = *re, y = *im, r = 1.0f, i = 0.0f;
+    if (x * x + y * y < 1.0f) {
+        /* The sum of (-z)^k / (k + 1)!, by Horner's rule. */
+        for (int k = 8; k > 0; k--) {
+            float a = (x * r - y * i) / (float)(k + 1);
+            float b = (x * i + y * r) / (float)(k + 1);
+            r = 1.0f - a;
+            i = -b;
+        }
+        *re = r;
+        *im = i;
+        return;
+    }
+    float s, c, left = fm_exp(-x);
+    fm_sincos(y, &s, &c);
+    r = 1.0f - left * c;
+    i = left * s;
+    float scale = 1.0f / (x * x + y * y);
+    *re = scale * (r * x + i * y);
+    *im = scale * (i * x - r * y);
+}
+
+/* One channel of a part in which two samples were taken: as if of the complex
+ * number of which they make the mean and i times half the difference. */
+HD float line_pair_channel(float source_a, float source_b, float sigma_a,
+                           float sigma_b, float length, double *tau,
+                           float *odds)
+{
+    float mean = 0.5f * (sigma_a + sigma_b) * length;
+    float half = 0.5f * (sigma_a - sigma_b) * length, seen = 0.0f;
+    if (source_a != 0.0f || source_b != 0.0f) {
+        float s, c, re = mean, im = half;
+        float q = 0.5f * (source_a + source_b);
+        float p = 0.5f * (source_a - source_b);
+        fm_sincos(*odds, &s, &c);
+        line_complex_reach(&re, &im);
+        /* (c - i s) (q + i p) (re + i im) */
+        seen = fm_exp((float)-*tau) * length *
+               (c * (q * re - p * im) + s * (q * im + p * re));
+    }
+    *tau += (double)mean;
+    *odds += half;
+    return seen;
+}
+
+HD void line_pair(line_integral *out, const line_point *a,
+                  const line_point *b, float length)
+{
+    out->radiance.r += line_pair_channel(a->source.r, b->source.r,
+                                         a->sigma_t.r, b->sigma_t.r, length,
+                                         &out->tau[0], &out->odds[0]);
+    out->radiance.g += line_pair_channel(a->source.g, b->source.g,
+                                         a->sigma_t.g, b->sigma_t.g, length,
+                                         &out->tau[1], &out->odds[1]);
+    out->radiance.b += line_pair_channel(a->source.b, b->source.b,
+                                         a->sigma_t.b, b->sigma_t.b, length,
+                                         &out->tau[2], &out->odds[2]);
+}
+
+/* From t on over `length`, by samples: one a part where next to nothing is
+ * lost, as its square is what is wrong. */
 HD void line_sample(line_job *job, const media_walk *w, float t, float length,
                     line_integral *out)
 {
-    const float deep = 0.1f, most = 64.0f, golden = 0.61803399f;
-    float parts = hd_min(line_depth(job, w, length) / deep, most);
-    int count = 1 + (int)parts;
+    const float deep = 0.5f, most = 64.0f, thin = 1e-3f;
+    float depth = line_depth(job, w, length);
+    float rate = depth < thin ? job->rate : 0.5f * job->rate;
+    int count = 1 + (int)hd_min(hd_max(depth / deep, rate * length), most);
     float part = length / (float)count;
-    for (int i = 0; i < count; i++) {
-        line_point x = line_at(job, w, t + part * ((float)i + job->jitter));
-        line_half(out, &x, part);
-        job->jitter += golden;
-        job->jitter -= job->jitter >= 1.0f ? 1.0f : 0.0f;
+    for (int i = 0; i < count; i++, t += part) {
+        line_point a = line_at(job, w,
+                               t + part * line_place(&job->jitter.first));
+        if (depth < thin) {
+            line_half(out, &a, part);
+            continue;
+        }
+        line_point b = line_at(job, w,
+                               t + part * line_place(&job->jitter.second));
+        line_pair(out, &a, &b, part);
     }
 }
 
@@ -273,26 +388,42 @@ HD void line_piece(line_job *job, const media_walk *w,
     }
 }
 
-HD float line_jitter(const flat_scene *s, rng *random)
+HD line_jitter line_jitter_make(float first, float second)
 {
-    return s->procedures_count > 0 ? rng_float(random) : 0.5f;
+    line_jitter j;
+    j.first = first;
+    j.second = second;
+    return j;
+}
+
+HD line_jitter line_jitter_draw(const flat_scene *s, rng *random)
+{
+    line_jitter j = line_jitter_make(0.5f, 0.5f);
+    if (s->procedures_count > 0) {
+        j.first = rng_float(random);
+        j.second = rng_float(random);
+    }
+    return j;
 }
 
 HD line_integral line_zero(void)
 {
     line_integral line;
-    line.tau[0] = line.tau[1] = line.tau[2] = 0.0;
+    for (int i = 0; i < 3; i++) {
+        line.tau[i] = 0.0;
+        line.odds[i] = 0.0f;
+    }
     line.radiance = rgb_gray(0.0f);
     line.overflow = 0;
     return line;
 }
 
 /* Adds the ray from t0 to t1 (finite) through the media of `set` to `out`; d
- * of unit length; jitter in [0, 1). Call with line_zero first; it can be
- * continued over further segments of the same ray. */
+ * of unit length. Call with line_zero first; it can be continued over further
+ * segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
-                       bool emission, bool scattered, float jitter,
+                       bool emission, bool scattered, line_jitter jitter,
                        line_integral *out)
 {
     media_walk w;
@@ -311,12 +442,16 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
     job.lattices = 0;
     job.jitter = jitter;
     job.sampled = false;
+    job.rate = 0.0f;
     for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)
         line_no_lattice(&job.lattice[i]);
     for (int i = 0; i < walk_parts(&w); i++) {
         const flat_medium *m = walk_medium(s, &w, i);
         line_add_lattices(&job, m);
-        job.sampled = job.sampled || m->sampled != 0;
+        if (scene_may(MAY_FUNCTIONS) && m->sampled) {
+            job.sampled = true;
+            job.rate = hd_max(job.rate, line_rate(m, walk_part(&w, i)));
+        }
     }
     if (job.scattered)
         line_add_field(&job);
@@ -328,16 +463,26 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
 
 HD rgb line_transmittance(const line_integral *l)
 {
-    return rgb_make(fm_exp((float)-l->tau[0]), fm_exp((float)-l->tau[1]),
-                    fm_exp((float)-l->tau[2]));
+    return rgb_make(line_pass(l->tau[0], l->odds[0]),
+                    line_pass(l->tau[1], l->odds[1]),
+                    line_pass(l->tau[2], l->odds[2]));
+}
+
+HD float line_lost(double tau, float odds)
+{
+    float lost = -fm_expm1((float)-tau);
+    if (!scene_may(MAY_FUNCTIONS) || odds == 0.0f)
+        return lost;
+    float s = fm_sin(0.5f * odds);
+    return lost + 2.0f * s * s * fm_exp((float)-tau);
 }
 
 /* 1 - transmittance, exact where it is tiny. */
 HD rgb line_opacity(const line_integral *l)
 {
-    return rgb_make(-fm_expm1((float)-l->tau[0]),
-                    -fm_expm1((float)-l->tau[1]),
-                    -fm_expm1((float)-l->tau[2]));
+    return rgb_make(line_lost(l->tau[0], l->odds[0]),
+                    line_lost(l->tau[1], l->odds[1]),
+                    line_lost(l->tau[2], l->odds[2]));
 }
 
 #endif

@@ -9,7 +9,7 @@
 /* What comes through of light over `distance` from o along wi: surfaces by
  * their transparency, media exactly. */
 HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
-                     float distance, float jitter)
+                     float distance, line_jitter jitter)
 {
     bvh_ray r = bvh_ray_make(o, wi);
     ray_hit after = hit_start(0.0f);
@@ -59,7 +59,7 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
     if (s->lights[light].shadows)
         in = rgb_mul(in, lit_cell_left(s, &set, x, l.shadow_wi,
                                      l.shadow_distance,
-                                     line_jitter(s, &p->random)));
+                                     line_jitter_draw(s, &p->random)));
     rgb seen = rgb_gray(0.0f);
     if (f->eye >= 0)
         seen = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));

@@ -19,7 +19,8 @@ typedef struct {
 /* Adds the next segment; its emission passes the surfaces before it. */
 HD void march_segment(const flat_scene *s, const container_set *inside,
                       vec3 o, vec3 d, float t0, float t1, rgb pass,
-                      float jitter, line_integral *line, rgb *radiance)
+                      line_jitter jitter, line_integral *line,
+                      rgb *radiance)
 {
     line->radiance = rgb_gray(0.0f);
     line_integrate(s, inside, o, d, t0, t1, 0.0f, !s->field.births, true,
@@ -27,10 +28,10 @@ HD void march_segment(const flat_scene *s, const container_set *inside,
     *radiance = rgb_add(*radiance, rgb_mul(line->radiance, pass));
 }
 
-/* Along the unit vector d from o, whose containers are `inside`; the jitter,
- * in [0, 1), is for functions (line.h). */
+/* Along the unit vector d from o, whose containers are `inside`; the jitter is
+ * for functions (line.h). */
 HD march_result march_line(const flat_scene *s, const container_set *inside,
-                           vec3 o, vec3 d, float jitter)
+                           vec3 o, vec3 d, line_jitter jitter)
 {
     march_result out;
     out.radiance = out.background = rgb_gray(0.0f);

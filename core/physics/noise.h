@@ -6,6 +6,7 @@
  * coordinate beyond 2^30, or that is not a number, counts as 0. */
 #ifndef CORE_PHYSICS_NOISE_H
 #define CORE_PHYSICS_NOISE_H
+#include "core/physics/lanes.h"
 #include "core/physics/noise_table.h"
 #include "core/physics/perlin_table.h"
 #include "core/physics/real.h"
@@ -23,16 +24,22 @@ HD real noise_coordinate(real x)
     return real_abs(x) < REAL(1073741824.0) ? x : REAL(0.0);
 }
 
+/* The greatest integer that is not above x. */
+HD int noise_floor(real x)
+{
+    int i = (int)x;
+    return i - ((real)i > x);
+}
+
 HD noise_cell noise_cell_of(real3 p)
 {
     real x = noise_coordinate(p.x), y = noise_coordinate(p.y);
     real z = noise_coordinate(p.z);
     noise_cell c;
-    c.x = (int)real_floor(x);
-    c.y = (int)real_floor(y);
-    c.z = (int)real_floor(z);
-    c.at = real3_make(x - real_floor(x), y - real_floor(y),
-                      z - real_floor(z));
+    c.x = noise_floor(x);
+    c.y = noise_floor(y);
+    c.z = noise_floor(z);
+    c.at = real3_make(x - (real)c.x, y - (real)c.y, z - (real)c.z);
     return c;
 }
 
@@ -56,13 +63,19 @@ HD int noise_number(int x, int y, int z)
     return noise_permutation[a ^ (z & 4095)];
 }
 
-/* What the window of four numbers at `entry` gives at the offset d. */
-HD real noise_plane(int entry, real3 d)
+/* Adds what a corner of the cell gives: from `entry` of the table on, for each
+ * of one sum or three a window of four numbers, a value and slopes; d is (1/2,
+ * offset). */
+HD void noise_corner(lanes *sum, int count, const lanes *d, real weight,
+                     int entry)
 {
-    return REAL(0.5) * (real)noise_lattice[entry]
-         + (real)noise_lattice[entry + 1] * d.x
-         + (real)noise_lattice[entry + 2] * d.y
-         + (real)noise_lattice[entry + 3] * d.z;
+    lanes part;
+    lanes_scale(&part, d, weight);
+    lanes_add(&sum[0], &part, noise_lattice + entry);
+    if (count < 3)
+        return;
+    lanes_add(&sum[1], &part, noise_lattice + entry + 4);
+    lanes_add(&sum[2], &part, noise_lattice + entry + 8);
 }
 
 /* Adds up the corners of a point's cell: one sum, or the three of a vector. */
@@ -71,20 +84,27 @@ HD void noise_lattice_sums(real3 p, int count, real *sum)
     noise_cell c = noise_cell_of(p);
     real3 s = real3_make(noise_ease(c.at.x), noise_ease(c.at.y),
                          noise_ease(c.at.z));
+    lanes all[3], d;
     for (int k = 0; k < count; k++)
-        sum[k] = REAL(0.0);
-    for (int i = 0; i < 8; i++) {
-        int x = i & 1, y = i >> 1 & 1, z = i >> 2;
-        real3 d = real3_make(c.at.x - (real)x, c.at.y - (real)y,
-                             c.at.z - (real)z);
-        real weight = noise_side(x, s.x) * noise_side(y, s.y)
-                    * noise_side(z, s.z) * REAL(1e-8);
-        int entry = noise_number(c.x + x + NOISE_ORIGIN,
-                                 c.y + y + NOISE_ORIGIN,
-                                 c.z + z + NOISE_ORIGIN) & 255;
-        for (int k = 0; k < count; k++)
-            sum[k] += weight * noise_plane(entry + 4 * k, d);
+        lanes_set(&all[k], REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0));
+    for (int x = 0; x < 2; x++) {
+        int row = noise_permutation[(c.x + x + NOISE_ORIGIN) & 4095];
+        for (int y = 0; y < 2; y++) {
+            int column = noise_permutation[
+                row ^ ((c.y + y + NOISE_ORIGIN) & 4095)];
+            real weight = noise_side(x, s.x) * noise_side(y, s.y);
+            for (int z = 0; z < 2; z++) {
+                int entry = noise_permutation[
+                    column ^ ((c.z + z + NOISE_ORIGIN) & 4095)] & 255;
+                lanes_set(&d, REAL(0.5), c.at.x - (real)x, c.at.y - (real)y,
+                          c.at.z - (real)z);
+                noise_corner(all, count, &d, weight * noise_side(z, s.z),
+                             entry);
+            }
+        }
     }
+    for (int k = 0; k < count; k++)
+        sum[k] = lanes_sum(&all[k]) * REAL(1e-8);
 }
 
 /* Gradient noise (Perlin 1985) of mean 0. */

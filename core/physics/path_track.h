@@ -363,7 +363,7 @@ HD int path_line(const flat_scene *s, path_state *p, const media_walk *w,
         return PATH_THROUGH;
     line_integral line = line_zero();
     line_integrate(s, &p->inside, p->o, p->d, t0, t1, p->p_dir, !p->straight,
-                   false, line_jitter(s, &p->random), &line);
+                   false, line_jitter_draw(s, &p->random), &line);
     path_add(p, rgb_mul(p->beta, line.radiance));
     p->beta = rgb_mul(p->beta, line_transmittance(&line));
     return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;

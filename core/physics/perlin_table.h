@@ -4,6 +4,7 @@
 #ifndef CORE_PHYSICS_PERLIN_TABLE_H
 #define CORE_PHYSICS_PERLIN_TABLE_H
 #include "core/physics/hd.h"
+#include "core/physics/real.h"
 
 HD_TABLE(uint16_t, perlin_permutation, 2048) = {
     1826, 1665, 1091, 1667, 277, 988, 1244, 1671, 562, 1673, 502, 1675, 454,

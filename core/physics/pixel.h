@@ -6,8 +6,8 @@
 #include "core/physics/single.h"
 #include "core/physics/sobol.h"
 
-/* Sums over samples. Halves of even and odd samples stand apart: their
- * difference tells the error (METHODS.md 10). */
+/* Sums over samples. Two halves of them stand apart: their difference tells
+ * the error (METHODS.md 10). */
 typedef struct {
     double path[2][3];
     double line[2][3];
@@ -23,6 +23,7 @@ typedef struct {
     uint32_t frame;
     int32_t path;           /* 0: nothing but the straight line gives light */
     int32_t lines;          /* 1: the straight line has noise too          */
+    int32_t single;         /* 1: one sample a pixel is all there will be  */
 } pixel_job;
 
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
@@ -35,38 +36,39 @@ HD bool pixel_has_line(uint32_t i, bool all)
     return all || i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
 }
 
-/* Which of the points of one half of the samples, or lines. */
-typedef struct {
-    uint32_t half, number;
-} pixel_place;
-
-HD pixel_place pixel_sample_place(uint32_t i)
+/* The half that sample, or line, number n is counted in. Of each two that
+ * follow one another one is; and as of the numbers' digits all but the second
+ * tell, the points of each half (sobol.h) fill the pixel evenly by themselves,
+ * to within a factor of two in one dimension. */
+HD uint32_t pixel_half(uint32_t n)
 {
-    pixel_place p;
-    p.half = i & 1u;
-    p.number = i >> 1;
-    return p;
+    n &= ~2u;
+    n ^= n >> 16;
+    n ^= n >> 8;
+    n ^= n >> 4;
+    n ^= n >> 2;
+    n ^= n >> 1;
+    return n & 1u;
 }
 
-/* Of a sample's line. Halves alternate in the order of lines. */
-HD pixel_place pixel_line_place(uint32_t i, bool all)
+/* Samples of one half among the first n. */
+HD uint32_t pixel_samples(uint32_t n, uint32_t half)
 {
-    if (all || i < PIXEL_LINES_FIRST)
-        return pixel_sample_place(i);
-    uint32_t later = i / PIXEL_LINES_EVERY;     /* from 1 on: the odd half */
-    pixel_place p = pixel_sample_place(later - 1u);
-    p.half ^= 1u;
-    p.number += PIXEL_LINES_FIRST / 2u;
-    return p;
+    return n / 2u + ((n & 1u) && pixel_half(n - 1u) == half ? 1u : 0u);
 }
 
-/* Lines of one half among the first n samples. */
-HD uint32_t pixel_lines(uint32_t n, int half, bool all)
+/* The number of sample i's line among all lines. */
+HD uint32_t pixel_line_number(uint32_t i, bool all)
 {
-    if (all || n <= PIXEL_LINES_FIRST)
-        return (n + (half == 0 ? 1u : 0u)) / 2u;
-    uint32_t more = (n - 1u) / PIXEL_LINES_EVERY;   /* 8, 16, ... */
-    return PIXEL_LINES_FIRST / 2u + (more + (half == 1 ? 1u : 0u)) / 2u;
+    return all || i < PIXEL_LINES_FIRST
+         ? i : PIXEL_LINES_FIRST - 1u + i / PIXEL_LINES_EVERY;
+}
+
+/* Lines among the first n samples. */
+HD uint32_t pixel_lines(uint32_t n, bool all)
+{
+    return all || n <= PIXEL_LINES_FIRST
+         ? n : PIXEL_LINES_FIRST + (n - 1u) / PIXEL_LINES_EVERY;
 }
 
 HD bool pixel_finite(rgb c)
@@ -83,9 +85,9 @@ HD void pixel_sum(double out[3], rgb c)
 
 HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
                    const container_set *set, uint32_t sample, uint32_t half,
-                   float along, film_pixel *out, track_counters *count)
+                   line_jitter jitter, film_pixel *out, track_counters *count)
 {
-    march_result m = march_line(s, set, o, d, along);
+    march_result m = march_line(s, set, o, d, jitter);
     count->overflow += m.overflow;
     if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
         count->rejected++;
@@ -113,33 +115,46 @@ HD void pixel_containers(const flat_scene *s, vec3 o, vec3 d,
         set->shape[part_place(i)] = s->camera_containers[i];
 }
 
-/* Three numbers that fill the unit cube evenly with those of the same half of
- * the pixel's samples. The halves are apart, so that their difference tells
- * the error. */
-HD void pixel_spread(const pixel_job *job, uint64_t index, pixel_place at,
-                     float u[SOBOL_DIMENSIONS])
+/* Where an eye's ray is, in [0, 1): of the pixel, and of what is left to its
+ * own samples along it. */
+typedef struct {
+    float x, y;
+    line_jitter along;
+} pixel_place;
+
+/* Places that fill the unit cube evenly with those of the pixel's other
+ * samples. As both halves do so together, their difference tells rather more
+ * than the error where it comes of edges, never less. A single sample is in
+ * the middle: nearest to the pixel's mean. */
+HD pixel_place pixel_spread(const pixel_job *job, uint64_t index,
+                            uint32_t number)
 {
-    rng seed = rng_make(job->seed, job->frame, 0xfffffffeu | at.half, index);
+    rng seed = rng_make(job->seed, job->frame, 0xffffffffu, index);
     uint32_t x[SOBOL_DIMENSIONS];
-    sobol_point(at.number, x);
+    float u[SOBOL_DIMENSIONS];
+    pixel_place p;
+    sobol_point(number, x);
     for (int i = 0; i < SOBOL_DIMENSIONS; i++)
         u[i] = sobol_float(sobol_scramble(x[i], rng_u32(&seed)));
+    p.x = job->single ? 0.5f : u[0];
+    p.y = job->single ? 0.5f : u[1];
+    p.along = line_jitter_make(u[2], sobol_float(
+        sobol_scramble(x[2], rng_u32(&seed))));
+    return p;
 }
 
-/* An eye's ray of pixel (x, y), and where it starts; *along is its place in
- * the third dimension. */
+/* An eye's ray of pixel (x, y), and where it starts. */
 HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
-                  int32_t y, pixel_place at, vec3 *o, vec3 *d,
-                  container_set *set, float *along)
+                  int32_t y, uint32_t number, vec3 *o, vec3 *d,
+                  container_set *set, line_jitter *along)
 {
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
-    float spread[SOBOL_DIMENSIONS];
-    pixel_spread(job, index, at, spread);
-    float u = ((float)x + spread[0]) / (float)job->width - 0.5f;
-    float v = 0.5f - ((float)y + spread[1]) / (float)job->height;
+    pixel_place at = pixel_spread(job, index, number);
+    float u = ((float)x + at.x) / (float)job->width - 0.5f;
+    float v = 0.5f - ((float)y + at.y) / (float)job->height;
     camera_ray(&s->view, u, v, o, d);
     pixel_containers(s, *o, *d, set);
-    *along = spread[2];
+    *along = at.along;
 }
 
 /* The straight lines of samples [first, first + n) of pixel (x, y). */
@@ -149,13 +164,13 @@ HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
 {
     for (uint32_t i = first; i < first + n; i++) {
         vec3 o, d;
-        float along;
+        line_jitter along;
         container_set set;
         if (!pixel_has_line(i, job->lines != 0))
             continue;
-        pixel_place at = pixel_line_place(i, job->lines != 0);
-        pixel_ray(s, job, x, y, at, &o, &d, &set, &along);
-        pixel_line(s, o, d, &set, i, at.half, along, out, count);
+        uint32_t number = pixel_line_number(i, job->lines != 0);
+        pixel_ray(s, job, x, y, number, &o, &d, &set, &along);
+        pixel_line(s, o, d, &set, i, pixel_half(number), along, out, count);
     }
 }
 
@@ -164,13 +179,13 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
                     track_counters *count)
 {
     vec3 o, d;
-    float along;
+    line_jitter along;
     container_set set;
     uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
-    pixel_ray(s, job, x, y, pixel_sample_place(i), &o, &d, &set, &along);
+    pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
     rng random = rng_make(job->seed, job->frame, i, index);
     path_begin(path, o, d, &set, true, random);
-    path->along = along;
+    path->along = along.first;
     count->paths++;
 }
 
@@ -178,7 +193,7 @@ HD void pixel_end(const path_state *path, uint32_t i, film_pixel *out,
                   track_counters *count)
 {
     if (pixel_finite(path->radiance))
-        pixel_sum(out->path[i & 1u], path->radiance);
+        pixel_sum(out->path[pixel_half(i)], path->radiance);
     else
         count->rejected++;
 }

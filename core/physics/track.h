@@ -40,6 +40,21 @@ HD rgb track_uniform(const flat_scene *s, const media_walk *w)
     return sum;
 }
 
+/* Whether any medium of the walk takes light away, and any unevenly. */
+HD bool track_attenuates(const flat_scene *s, const media_walk *w,
+                         bool *uneven)
+{
+    bool some = false;
+    *uneven = false;
+    for (int i = 0; i < walk_parts(w); i++) {
+        const flat_medium *m = walk_medium(s, w, i);
+        bool takes = !rgb_is_black(m->sigma_t);
+        some = some || takes;
+        *uneven = *uneven || (takes && !m->uniform);
+    }
+    return some;
+}
+
 /* Majorant of the others over the current piece. */
 HD float track_majorant(const flat_scene *s, const media_walk *w)
 {
@@ -100,10 +115,11 @@ HD_APART rgb track_media(const flat_scene *s, const container_set *set,
     walk_begin(s, &w, set, atmosphere, o, d, t0, t1);
     c->overflow += w.overflow;
     rgb product = rgb_gray(1.0f);
-    if (w.count == 0)
+    bool uneven;
+    if (!track_attenuates(s, &w, &uneven))
         return product;
     rgb uniform = rgb_scale(track_uniform(s, &w), -(t1 - t0));
-    float tau = rng_optical_depth(r);
+    float tau = uneven ? rng_optical_depth(r) : 0.0f;
     do {
         float majorant = track_majorant(s, &w);
         if (!(majorant > 0.0f))
@@ -121,7 +137,7 @@ HD_APART rgb track_media(const flat_scene *s, const container_set *set,
                                &product, c))
                 return rgb_gray(0.0f);
         }
-    } while (walk_next(s, &w));
+    } while (uneven && walk_next(s, &w));
     return rgb_mul(product, rgb_make(fm_exp(uniform.r), fm_exp(uniform.g),
                                      fm_exp(uniform.b)));
 }

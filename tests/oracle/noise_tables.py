@@ -228,7 +228,8 @@ def header(folder, name, comment, *tables):
         file.write(f"/* {name}.h - {comment}\n * Written by"
                    " tests/oracle/noise_tables.py. */\n"
                    f"#ifndef {guard}\n#define {guard}\n"
-                   '#include "core/physics/hd.h"\n\n'
+                   '#include "core/physics/hd.h"\n'
+                   '#include "core/physics/real.h"\n\n'
                    + "\n".join(tables) + "\n#endif\n")
 
 
@@ -239,8 +240,8 @@ def main(folder):
     header(folder, "noise_table", "lattice noise: a permutation, and values"
            " and slopes\n * times 1e8.",
            table("uint16_t", "noise_permutation", p),
-           table("int32_t", "noise_lattice", [round(n * 1e8)
-                                              for n in numbers]))
+           table("real", "noise_lattice", [f"REAL({round(n * 1e8)}.0)"
+                                           for n in numbers]))
     p, gradients = perlin_tables()
     header(folder, "perlin_table", "gradient noise: numbers of the gradients,"
            " and directions,\n * three integers each.",

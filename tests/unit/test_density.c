@@ -353,6 +353,69 @@ static void test_exceeded(void **state)
     brume_scene_free(s);
 }
 
+/* Optical depth of a function's field along z at (0.5, 0.3), by many points. */
+static double depth_of(brume_scene *s, int function, double scale, double fine)
+{
+    enum { POINTS = 200000 };
+    double sum = 0;
+    for (int i = 0; i < POINTS; i++) {
+        double z = 2 * (i + 0.5) / POINTS;
+        const double p[3] = {0.5 / fine, 0.3 / fine, z / fine};
+        double out[BRUME_MAX_RESULTS];
+        brume_eval_function(s, function, p, 3, out, truth_error());
+        sum += fmax(out[0], 0) * scale * 2 / POINTS;
+    }
+    return sum;
+}
+
+/* Cells of random densities, far finer than samples of a line: what these
+ * tell of the depth varies, but not the mean of what passes, nor of what is
+ * emitted, which here is what is lost. */
+static void test_lines_mean(void **state)
+{
+    (void)state;
+    enum { RUNS = 60000 };
+    const double fine = 0.011, scale = 5;
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    int function = add_pattern(s, BRUME_PATTERN_CELLS);
+    struct brume_field field = BRUME_FIELD_INIT;
+    field.kind = BRUME_FIELD_FUNCTION;
+    field.function = function;
+    field.scale = scale;
+    for (int i = 0; i < 3; i++)
+        field.transform[i][i] = fine;
+    struct brume_medium m = truth_medium(1, 0, 0);
+    for (int c = 0; c < 3; c++)
+        m.emission[c] = 1;
+    m.density[0] = brume_add_field(s, &field, truth_error());
+    m.densities = 1;
+    truth_fill(s, truth_box(1, 0, 2), &m);
+    struct counted warned;
+    struct flat *f = prepare(s, &warned);
+    const double from[3] = {0.5, 0.3, 0}, to[3] = {0.5, 0.3, 2};
+    double a[3], b[3];
+    matrix_point(&f->to_unit, from, a);
+    matrix_point(&f->to_unit, to, b);
+    vec3 o = vec3_make((float)a[0], (float)a[1], (float)a[2]);
+    container_set set = {.count = 1, .shape = {0}};
+    struct mean passed = {.count = 0}, lost = {.count = 0};
+    rng random = rng_make(1, 2, 3, 4);
+    for (int i = 0; i < RUNS; i++) {
+        line_integral line = line_zero();
+        line_integrate(&f->view, &set, o, vec3_make(0, 0, 1), 0,
+                       (float)(b[2] - a[2]), 0, true, false,
+                       line_jitter_draw(&f->view, &random), &line);
+        mean_add(&passed, line_transmittance(&line));
+        mean_add(&lost, line.radiance);
+    }
+    double left = exp(-depth_of(s, function, scale, fine));
+    mean_check(&passed, (double[3]){left, left, left});
+    mean_check(&lost, (double[3]){1 - left, 1 - left, 1 - left});
+    flat_free(f);
+    brume_scene_free(s);
+}
+
 /* ---- grids in functions ------------------------------------------------ */
 
 /* Samples x + 10 y + 100 z at index (x, y, z), placed at twice that. */
@@ -472,8 +535,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(linear),    CASE(bounds),   CASE(placed),
-        CASE(unbounded), CASE(grid),     CASE(grid_float),
-        CASE(refused),   CASE(exceeded), CASE(colored)};
+        CASE(linear),  CASE(bounds),     CASE(placed),  CASE(unbounded),
+        CASE(grid),    CASE(grid_float), CASE(refused), CASE(exceeded),
+        CASE(colored), CASE(lines_mean)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

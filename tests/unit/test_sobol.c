@@ -77,28 +77,53 @@ static void test_seeds(void **state)
         }
 }
 
-/* Each half's lines take its points in turn, and are counted right. */
+/* Lines take points without a gap, and both halves' are counted right. */
 static void test_lines(void **state)
 {
     (void)state;
     for (int sampled = 0; sampled < 2; sampled++) {
-        uint32_t next[2] = {0, 0};
+        uint32_t next = 0, half[2] = {0, 0};
         for (uint32_t i = 0; i < 300; i++) {
-            for (int half = 0; half < 2; half++)
-                assert_int_equal(pixel_lines(i, half, sampled), next[half]);
+            assert_int_equal(pixel_lines(i, sampled), next);
+            for (uint32_t k = 0; k < 2; k++)
+                assert_int_equal(pixel_samples(next, k), half[k]);
             if (!pixel_has_line(i, sampled))
                 continue;
-            pixel_place at = pixel_line_place(i, sampled);
-            assert_int_equal(at.number, next[at.half]++);
+            uint32_t number = pixel_line_number(i, sampled);
+            assert_int_equal(number, next++);
+            half[pixel_half(number)]++;
         }
-        assert_true(next[0] + next[1] == (sampled ? 300 : 41));
+        assert_true(next == (sampled ? 300 : 41));
     }
+}
+
+/* Each half of the first 2^k points has one in each interval of 2 / 2^k of one
+ * coordinate, and in the other one to within a factor of two. */
+static void test_halves(void **state)
+{
+    (void)state;
+    for (int k = 3; k <= MOST; k++)
+        for (int d = 0; d < 2; d++) {
+            int level = k - 1 - ((d == 1) == (k % 2 == 1));
+            int each = 1 << (k - 1 - level);
+            unsigned char taken[2][1 << MOST] = {{0}};
+            for (uint32_t n = 0; n < 1u << k; n++) {
+                uint32_t x[SOBOL_DIMENSIONS];
+                point(n, k, x);
+                taken[pixel_half(n)][x[d] >> (32 - level)]++;
+            }
+            for (int i = 0; i < 1 << level; i++) {
+                assert_int_equal(taken[0][i], each);
+                assert_int_equal(taken[1][i], each);
+            }
+        }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals), cmocka_unit_test(test_rectangles),
-        cmocka_unit_test(test_seeds), cmocka_unit_test(test_lines)};
+        cmocka_unit_test(test_seeds), cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_halves)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -227,7 +227,8 @@ static inline void walk_score(struct walk *w, const struct walker *a,
     bool far = fabs((double)a->at - w->plan->target) > 6.0;
     if (far && !rng_chance(r, 0.125f))
         return;
-    march_result m = march_line(w->scene, inside, o, d, 0.5f);
+    march_result m = march_line(w->scene, inside, o, d,
+                                line_jitter_make(0.5f, 0.5f));
     w->sum += (far ? 8.0 : 1.0) * a->weight * (double)m.radiance.r;
 }
 
