@@ -20,7 +20,7 @@ static bool same_numbers(const radiance_lattice *a, const radiance_lattice *b)
     return a->numbers == b->numbers && a->eye == b->eye &&
            a->fluence == b->fluence && a->flux == b->flux &&
            a->phase == b->phase && a->g == b->g && a->ball == b->ball &&
-           a->thick == b->thick;
+           a->births == b->births;
 }
 
 /* The most by which the logarithm of a phase function changes per radian;
@@ -87,7 +87,6 @@ void filter_view_init(struct filter_view *v, const struct flat *from,
     v->field = field;
     v->scale = (double)a->side / from->unit * field->unit / (double)b->side;
     align(v, a, from);
-    v->gain = a->ball && !a->thick ? (float)(field->unit / from->unit) : 1.0f;
     double steep = a->eye >= 0 ? steepness(a) : 0.0;
     if (steep > 0.0 && !same_eye(from, field)) {
         v->from = from;
@@ -140,7 +139,7 @@ static bool interpolate(const struct filter_view *v, const double q[3],
     if (!(weights >= 0.5))
         return false;
     for (int i = 0; i < numbers; i++)
-        out[i] = (float)(sum[i] / weights) * v->gain;
+        out[i] = (float)(sum[i] / weights);
     return true;
 }
 
@@ -271,7 +270,7 @@ static bool mix_around(const struct filter_view *v, const struct around *a,
     if (!(weights >= 0.5f))
         return false;
     for (int i = 0; i < numbers; i++)
-        out[i] = sum[i] / weights * v->gain;
+        out[i] = sum[i] / weights;
     return true;
 }
 
@@ -322,7 +321,7 @@ bool filter_view_brick(const struct filter_view *v, const int corner[3],
         out->cells = room->cells;
         if (!fill_moved(v, places, room))
             return false;
-    } else if (v->aligned && v->gain == 1.0f) {
+    } else if (v->aligned) {
         out->cells = aligned_cells(v, corner);
         if (!out->cells || !v->from)
             return out->cells;

@@ -10,7 +10,6 @@ struct filter_view {
     bool aligned;               /* brick i is the other's i + brick         */
     double scale, shift[3];     /* of cells' numbers, 0 at the first middle */
     int brick[3];
-    float gain;                 /* from its unit of length to the other's   */
     const struct flat *from;    /* set where the eye's place matters        */
     double turn;                /* cosine of the way's turn to it, at least */
 };

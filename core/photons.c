@@ -57,7 +57,7 @@ static double judge_power(const flat_scene *s, const struct photons *p,
         photon_place(&p->job, i, u);
         rng random = rng_make(p->job.seed, p->job.frame, PHOTON_PASS - 1u,
                               (uint64_t)stream * PILOTS + i);
-        photon_birth(s, source, u, random, &state, &count);
+        photon_birth(s, source, u, (i + 0.5) / PILOTS, random, &state, &count);
         rgb b = state.path.beta;
         double size = (fabs((double)b.r) + fabs((double)b.g) +
                        fabs((double)b.b)) /
@@ -117,7 +117,9 @@ bool photons_plan(const struct flat *flat, const struct brume_options *options,
         out->job.shift[i] = (uint64_t)rng_u32(&random) << 32;
         out->job.shift[i] |= rng_u32(&random);
     }
-    out->job.shift_share = rng_float(&random);
+    /* Births of voxels keep their order: each pass has them elsewhere. */
+    double turn = (double)rng_float(&random) + 0.61803398874989 * pass;
+    out->job.shift_share = (float)(turn - floor(turn));
     list_sources(s, out);
     share_out(s, out);
     return true;

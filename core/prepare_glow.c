@@ -167,8 +167,10 @@ bool prepare_glow(const struct prepare *job, struct brume_error *err)
             return false;
         total += power;
     }
-    for (size_t i = 0; i < f->glows_count; i++)
+    for (size_t i = 0; i < f->glows_count; i++) {
         f->glows[i].probability = (float)(f->glows[i].probability / total);
+        f->glows[i].power = (float)(4.0 * M_PI * total);
+    }
     flat_view(f);
     return true;
 }

@@ -74,16 +74,6 @@ static bool has_surfaces(const struct flat *f)
     return false;
 }
 
-/* Whether all that the field's balls gather grows with the density of its
- * medium. */
-static bool gives_by_density(const struct flat *f, bool births)
-{
-    for (size_t i = 0; i < f->media_count; i++)
-        if (births && f->media[i].fire && f->media[i].additive)
-            return false;
-    return true;
-}
-
 /* The eye's rays ask for what goes there, those that surfaces send on for
  * what goes anywhere. Of many fields none may be wrong but by its cells: where
  * a fluence and a flux are not enough, only the eye's straight lines read
@@ -103,12 +93,13 @@ static void choose_numbers(struct layout *l)
     out->ball = out->ball || (l->passes && !alike);
     out->straight = l->passes && (out->ball || !even);
     bounces = bounces && !out->straight;
-    out->thick = out->ball && gives_by_density(f, out->births != 0);
     l->seen = !bounces && !l->options->everywhere && !f->view.view.orthographic;
     if (out->ball || (alike && !even)) {
         out->eye = 0;
         out->numbers = 3;
     }
+    if (out->ball && out->births)
+        out->births = out->numbers++;
     if (out->ball)
         return;
     if (out->eye < 0 || bounces) {
@@ -121,11 +112,13 @@ static void choose_numbers(struct layout *l)
     }
 }
 
-/* Whether a medium may scatter in a box of unit space. */
-static bool medium_in_box(const struct flat *f, const flat_medium *m,
+/* Whether a medium may give light in a box of unit space: scatters it, or
+ * where births are asked for emits it. */
+static bool medium_in_box(const struct layout *l, const flat_medium *m,
                           const float lo[3], const float hi[3])
 {
-    if (rgb_is_black(m->sigma_s))
+    const struct flat *f = l->flat;
+    if (rgb_is_black(m->sigma_s) && !(l->field.births && m->emits))
         return false;
     if (m->uniform || m->outside.density > 0.0f)
         return true;
@@ -210,7 +203,7 @@ static bool brick_scatters(const struct layout *l, const int32_t at[3])
                      box_nearer(view, lo, hi, f->far + margin)))
         return false;
     for (size_t i = 0; i < l->flat->media_count; i++)
-        if (medium_in_box(l->flat, &l->flat->media[i], lo, hi))
+        if (medium_in_box(l, &l->flat->media[i], lo, hi))
             return true;
     return false;
 }

@@ -36,7 +36,7 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
     atomic_store(&s->stop, false);
     if (unit > 0.0)
         radiance_resolve(flat, s->sum, unit);
-    bool good = !(unit > 0.0 && f->thick) ||
+    bool good = !(unit > 0.0 && f->ball) ||
                 parallel_for(s->threads, bricks, ball_brick, s, &s->stop);
     good = good && (!f->single ||
                     parallel_for(s->threads, bricks, light_brick, s, &s->stop));

@@ -160,7 +160,7 @@ bool cuda_gather(void *state, double unit, brume_error *err)
     if (unit > 0.0)
         resolve<<<static_cast<unsigned>(blocks), block_size>>>(
             s->sum, s->cells, count, radiance_scale(f, unit));
-    if (unit > 0.0 && f->thick)
+    if (unit > 0.0 && f->ball)
         s->photons->balls(&job);
     if (f->single)
         s->photons->light(&job);

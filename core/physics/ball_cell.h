@@ -6,7 +6,12 @@
  * scattered per thickness of the media, both of them means over its ball, and
  * the eye's rays give it back by the thickness where they pass. This is the
  * published sum times sigma_s (PAPER.md, section 1) with the factor that it
- * lacks, 1 / sigma_s, of the ball. */
+ * lacks, 1 / sigma_s, of the ball.
+ *
+ * Births of emission photons tell likewise what is emitted in a ball on
+ * average, of hot and cold places. A cell keeps how many there are for each
+ * that should be, which is 1 but for chance; the eye's rays give it back by
+ * what is emitted where they pass. */
 #ifndef CORE_PHYSICS_BALL_CELL_H
 #define CORE_PHYSICS_BALL_CELL_H
 #include "core/physics/inside.h"
@@ -82,7 +87,7 @@ HD ball_media ball_media_at(const flat_scene *s, vec3 x)
         rgb *density = &b.density[part_place(i)];
         *density = rgb_scale(*density, 0.5f / (float)BALL_PAIRS);
         b.thickness += radiance_thickness(
-            s, &s->media[b.medium[part_place(i)]], *density);
+            &s->media[b.medium[part_place(i)]], *density);
     }
     return b;
 }
@@ -105,19 +110,124 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
     return rgb_scale(sum, light_medium_factor(s) / b->thickness);
 }
 
-/* Turns the events of cell i of a brick that is there, over the volume of its
- * ball, into those per thickness. */
+/* ---- births ------------------------------------------------------------- */
+
+/* A ball over voxels, each cut in so many parts along an axis. */
+typedef struct {
+    vec3 centre;
+    float radius, step;
+    int parts, lo[3], hi[3];    /* parts that it may touch: lo to hi - 1   */
+} ball_box;
+
+HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
+{
+    ball_box b;
+    vec3 at = affine_point(&g->to_index, x), half;
+    const float *m = g->to_index.m;
+    half.x = r * vec3_length(vec3_make(m[0], m[1], m[2]));
+    half.y = r * vec3_length(vec3_make(m[4], m[5], m[6]));
+    half.z = r * vec3_length(vec3_make(m[8], m[9], m[10]));
+    float least = hd_min(half.x, hd_min(half.y, half.z));
+    b.centre = x;
+    b.radius = r;
+    b.parts = least < 1.0f ? 4 : least < 2.0f ? 2 : 1;
+    b.step = 1.0f / (float)b.parts;
+    for (int i = 0; i < 3; i++) {
+        float a = vec3_get(at, i), h = vec3_get(half, i) + 0.5f;
+        b.lo[i] = hd_floor((a - h) * (float)b.parts);
+        b.hi[i] = hd_floor((a + h) * (float)b.parts) + 1;
+    }
+    return b;
+}
+
+/* Share of a cube around q, of that size in voxels, that lies in the ball: as
+ * if the ball's face were flat there, and the cube turned toward it. */
+HD float ball_share(const flat_glow *g, const ball_box *b, vec3 q, float size)
+{
+    vec3 off = vec3_sub(affine_point(&g->from_index, q), b->centre);
+    float distance = vec3_length(off);
+    float wide = vec3_length(affine_vector(&g->to_index, off));
+    float inside = (b->radius - distance) * wide;
+    if (!(distance * size > 0.0f))
+        return 1.0f;
+    return hd_min(hd_max(0.5f + inside / (distance * size), 0.0f), 1.0f);
+}
+
+/* The same of a part of a voxel, by its eighths where it is at the face. */
+HD float ball_part(const flat_glow *g, const ball_box *b, vec3 q)
+{
+    const float corner = 1.7320508f;
+    float whole = ball_share(g, b, q, corner * b->step), sum = 0.0f;
+    if (whole <= 0.0f || whole >= 1.0f)
+        return whole;
+    for (int i = 0; i < 8; i++) {
+        float h = 0.25f * b->step;
+        vec3 off = vec3_make(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h);
+        sum += ball_share(g, b, vec3_add(q, off), 0.5f * b->step);
+    }
+    return 0.125f * sum;
+}
+
+/* Mean of glow_pdf over a ball, of a list. */
+HD float ball_glow(const flat_scene *s, const flat_glow *g, vec3 x, float r)
+{
+    ball_box b = ball_box_make(g, x, r);
+    double sum = 0.0, all = 0.0;
+    for (int k = b.lo[2]; k < b.hi[2]; k++)
+        for (int j = b.lo[1]; j < b.hi[1]; j++)
+            for (int i = b.lo[0]; i < b.hi[0]; i++) {
+                vec3 q = vec3_make((float)i + 0.5f, (float)j + 0.5f,
+                                   (float)k + 0.5f);
+                q = vec3_scale(q, b.step);
+                float share = ball_part(g, &b, q);
+                if (!(share > 0.0f))
+                    continue;
+                vec3 p = affine_point(&g->from_index, q);
+                all += (double)share;
+                sum += (double)(share * glow_pdf(s, g, p));
+            }
+    return all > 0.0 ? (float)(sum / all) : 0.0f;
+}
+
+/* Power of births that is to be expected, over the volume of the ball. */
+HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x)
+{
+    float sum = 0.0f;
+    for (uint64_t i = 0; i < s->glows_count; i++)
+        sum += s->glows[i].power *
+               ball_glow(s, &s->glows[i], x, s->field.radius);
+    field_point at = field_point_make(s, -1, x);
+    for (int i = 0; i < part_bound(b->count); i++) {
+        const flat_medium *m = &s->media[b->medium[part_place(i)]];
+        if (m->uniform && m->emits)
+            sum += 4.0f * LIGHT_PI *
+                   rgb_mean(medium_source(s, m, &at,
+                                          b->density[part_place(i)]));
+    }
+    return sum;
+}
+
+/* Turns what is in the ball of cell i of a brick that is there, over its
+ * volume: events into those per thickness, births into their number over that
+ * which is to be expected. */
 HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells)
 {
     const radiance_lattice *f = &s->field;
     uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
     float *out = cells + cell * (uint64_t)f->numbers;
-    if (out[0] == 0.0f && out[1] == 0.0f && out[2] == 0.0f)
+    bool events = out[0] != 0.0f || out[1] != 0.0f || out[2] != 0.0f;
+    bool births = f->births && out[f->births] != 0.0f;
+    if (!events && !births)
         return;
-    ball_media b = ball_media_at(s, radiance_middle(s, brick, i));
+    vec3 x = radiance_middle(s, brick, i);
+    ball_media b = ball_media_at(s, x);
     float scale = b.thickness > 0.0f ? 1.0f / b.thickness : 0.0f;
     for (int c = 0; c < 3; c++)
         out[c] *= scale;
+    if (!births)
+        return;
+    float expected = ball_births(s, &b, x);
+    out[f->births] = expected > 0.0f ? out[f->births] / expected : 1.0f;
 }
 
 #endif

@@ -22,12 +22,12 @@ HD float glow_below(const float *cumulative, int i)
 }
 
 /* First index whose cumulative probability exceeds u. */
-HD int glow_find(const float *cumulative, int count, float u)
+HD int glow_find(const float *cumulative, int count, double u)
 {
     int lo = 0, hi = count - 1;
     while (lo < hi) {
         int mid = (lo + hi) / 2;
-        if (cumulative[mid] > u)
+        if ((double)cumulative[mid] > u)
             hi = mid;
         else
             lo = mid + 1;
@@ -35,12 +35,12 @@ HD int glow_find(const float *cumulative, int count, float u)
     return lo;
 }
 
-HD int glow_find_brick(const glow_brick *bricks, uint64_t count, float u)
+HD int glow_find_brick(const glow_brick *bricks, uint64_t count, double u)
 {
     int lo = 0, hi = (int)count - 1;
     while (lo < hi) {
         int mid = (lo + hi) / 2;
-        if (bricks[mid].cumulative > u)
+        if ((double)bricks[mid].cumulative > u)
             hi = mid;
         else
             lo = mid + 1;
@@ -80,25 +80,24 @@ HD float glow_pdf(const flat_scene *s, const flat_glow *g, vec3 p)
            g->voxel_volume;
 }
 
-HD int glow_choose_list(const flat_scene *s, float u)
+/* *u: what is left of it within the list. */
+HD int glow_choose_list(const flat_scene *s, double *u)
 {
     int last = (int)s->glows_count - 1;
     for (int i = 0; i < last; i++) {
-        if (u < s->glows[i].probability)
+        if (*u < (double)s->glows[i].probability)
             return i;
-        u -= s->glows[i].probability;
+        *u -= (double)s->glows[i].probability;
     }
     return last;
 }
 
-/* A point of some emitting voxel; the scene has at least one list. */
-HD glow_sample glow_choose(const flat_scene *s, rng *r)
+/* A point of a voxel of brick i of a list. */
+HD glow_sample glow_point(const flat_scene *s, const flat_glow *g, int i,
+                          int voxel, rng *r)
 {
-    const flat_glow *g = &s->glows[glow_choose_list(s, rng_float(r))];
     const glow_brick *bricks = s->glow_bricks + g->first;
-    int i = glow_find_brick(bricks, g->count, rng_float(r));
     const float *v = s->glow_voxels + (g->first + (uint64_t)i) * 512;
-    int voxel = glow_find(v, 512, rng_float(r));
     /* One after the other: arguments have no order. */
     float x = rng_float(r), y = rng_float(r), z = rng_float(r);
     vec3 q = vec3_make((float)(bricks[i].corner[0] + (voxel & 7)) + x,
@@ -110,6 +109,32 @@ HD glow_sample glow_choose(const flat_scene *s, rng *r)
     out.pdf = g->probability * glow_brick_probability(s, g, i) *
               (v[voxel] - glow_below(v, voxel)) / g->voxel_volume;
     return out;
+}
+
+/* A point of some emitting voxel; the scene has at least one list. */
+HD glow_sample glow_choose(const flat_scene *s, rng *r)
+{
+    double u = (double)rng_float(r);
+    const flat_glow *g = &s->glows[glow_choose_list(s, &u)];
+    int i = glow_find_brick(s->glow_bricks + g->first, g->count,
+                            (double)rng_float(r));
+    const float *v = s->glow_voxels + (g->first + (uint64_t)i) * 512;
+    return glow_point(s, g, i, glow_find(v, 512, (double)rng_float(r)), r);
+}
+
+/* The same, its voxel at the place u, in [0, 1), of all that are in order: of
+ * n even places each voxel has its share of n, rounded up or down (PAPER.md,
+ * section 3). */
+HD glow_sample glow_choose_at(const flat_scene *s, double u, rng *r)
+{
+    const flat_glow *g = &s->glows[glow_choose_list(s, &u)];
+    const glow_brick *bricks = s->glow_bricks + g->first;
+    u /= (double)g->probability;
+    int i = glow_find_brick(bricks, g->count, u);
+    double below = i > 0 ? (double)bricks[i - 1].cumulative : 0.0;
+    double share = (double)bricks[i].cumulative - below;
+    const float *v = s->glow_voxels + (g->first + (uint64_t)i) * 512;
+    return glow_point(s, g, i, glow_find(v, 512, (u - below) / share), r);
 }
 
 /* Share of the emission of `medium` at p, distance t from a vertex, that the

@@ -171,11 +171,14 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
     bool read = false;
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
-    rgb ball = rgb_gray(0.0f);
-    if (scene_may(MAY_FIELD) && job->scattered && job->s->field.ball)
-        ball = radiance_at(job->s, p, true).eye;
-    if (!job->s->field.thick)
-        out.source = ball;
+    bool ball = scene_may(MAY_FIELD) && job->scattered && job->s->field.ball;
+    rgb gathered = rgb_gray(0.0f);
+    float births = 1.0f;
+    if (ball) {
+        light = radiance_at(job->s, p, true);
+        gathered = light.eye;
+        births = job->s->field.births ? light.births : 1.0f;
+    }
     for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = walk_medium(job->s, w, i);
         const majorant_cell *bound = &walk_part(w, i)->bound;
@@ -184,10 +187,10 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         field_point x = lattice_point(job->s, walk_part(w, i), p, t);
         rgb density = medium_density(job->s, m, &x);
         out.sigma_t = rgb_add(out.sigma_t, rgb_mul(m->sigma_t, density));
-        if (scene_may(MAY_FIELD) && job->s->field.thick)
-            out.source = rgb_add(out.source, rgb_scale(ball,
-                radiance_thickness(job->s, m, density)));
-        if (scene_may(MAY_FIELD) && job->scattered && !job->s->field.ball &&
+        if (ball)
+            out.source = rgb_add(out.source, rgb_scale(gathered,
+                radiance_thickness(m, density)));
+        if (scene_may(MAY_FIELD) && job->scattered && !ball &&
             !rgb_is_black(density) && !rgb_is_black(m->sigma_s)) {
             if (!read)
                 light = radiance_at(job->s, p, true);
@@ -201,6 +204,7 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
         if (!rgb_is_black(q))
             q = rgb_scale(q, glow_ray_share(job->s, walk_part(w, i)->medium, p,
                                             t, job->p_dir));
+        q = rgb_scale(q, births);
         out.source = rgb_add(out.source, q);
     }
     return out;

@@ -36,11 +36,8 @@ HD rgb lit_cell_seen(const flat_scene *s, const path_state *p,
                      const ball_media *ball, vec3 wi)
 {
     const radiance_lattice *f = &s->field;
-    float sigma_s;
-    if (f->thick)
-        return ball_scattered(s, ball, p->d, wi);
     if (f->ball)
-        return path_scattered(s, p, 0.0f, wi, &sigma_s);
+        return ball_scattered(s, ball, p->d, wi);
     return rgb_gray(phase_eval_between(f->phase, f->g, p->d, wi) *
                     phase_pov_scale(f->phase) * light_medium_factor(s));
 }
@@ -83,7 +80,7 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
     ball_media ball;
     ball.count = 0;
     ball.thickness = 0.0f;
-    if (s->field.thick) {
+    if (s->field.ball) {
         ball = ball_media_at(s, x);
         if (!(ball.thickness > 0.0f))
             return;

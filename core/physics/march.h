@@ -23,8 +23,7 @@ HD void march_segment(const flat_scene *s, const container_set *inside,
                       rgb *radiance)
 {
     line->radiance = rgb_gray(0.0f);
-    line_integrate(s, inside, o, d, t0, t1, 0.0f, !s->field.births, true,
-                   jitter, line);
+    line_integrate(s, inside, o, d, t0, t1, 0.0f, true, true, jitter, line);
     *radiance = rgb_add(*radiance, rgb_mul(line->radiance, pass));
 }
 

@@ -279,7 +279,7 @@ HD bool path_medium_at(const flat_scene *s, const container_set *set,
 /* Next-event estimation to the emitting voxels of media. */
 HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
 {
-    if (!scene_may(MAY_EMISSION) || s->glows_count == 0 || s->field.births)
+    if (!scene_may(MAY_EMISSION) || s->glows_count == 0)
         return;
     glow_sample g = glow_choose(s, &p->random);
     vec3 to = vec3_sub(g.p, v->p);
@@ -364,7 +364,7 @@ HD float path_thickness(const flat_scene *s, const container_set *set, vec3 x)
             const flat_medium *m = &s->media[
                 s->interior_media[s->interiors[interior].first + k]];
             field_point at = field_point_make(s, m->lead, x);
-            sum += radiance_thickness(s, m, medium_density(s, m, &at));
+            sum += radiance_thickness(m, medium_density(s, m, &at));
         }
     }
     return sum;
@@ -379,9 +379,7 @@ HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
     radiance_point x = radiance_at(s, v->p, s->field.ball);
     if (s->field.ball) {
         /* Toward the eye: all that there is. */
-        float scale = 1.0f / v->event->sigma_s;
-        if (s->field.thick)
-            scale *= path_thickness(s, &p->inside, v->p);
+        float scale = path_thickness(s, &p->inside, v->p) / v->event->sigma_s;
         path_add(p, rgb_scale(rgb_mul(p->beta, x.eye), scale));
         return;
     }

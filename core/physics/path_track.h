@@ -79,7 +79,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->all_a = rgb_add(out->all_a, rgb_mul(m->sigma_a, density));
         out->all_t = rgb_add(out->all_t, rgb_mul(m->sigma_t, density));
         if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
-            m->uniform || s->field.births)
+            m->uniform)
             continue;
         rgb q = medium_source(s, m, &at, density);
         if (rgb_is_black(q))
@@ -238,8 +238,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
                   path_event *out)
 {
     float tau = rng_optical_depth(&p->random);
-    rgb source = s->field.births ? rgb_gray(0.0f)
-                                 : path_uniform_source(s, p, w);
+    rgb source = path_uniform_source(s, p, w);
     do {
         rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
                                  path_room(p));

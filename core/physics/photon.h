@@ -381,15 +381,35 @@ HD bool photon_land(const flat_scene *s, photon_state *p, photon_counters *c,
 
 /* ---- the whole of it --------------------------------------------------- */
 
-/* The source of a photon: they take turns by their shares. */
-HD int photon_source_of(const photon_job *job, uint64_t photon)
+/* The source of a photon: they take turns by their shares. *place, in [0, 1),
+ * is the photon's among those of the source. */
+HD const photon_source *photon_source_of(const photon_job *job,
+                                         uint64_t photon, double *place)
 {
     double u = ((double)photon + (double)job->shift_share) /
                (double)job->count;
     int i = 0;
     while (i < job->sources - 1 && u >= job->source[i].cumulative)
         i++;
-    return i;
+    const photon_source *source = &job->source[i];
+    u = (u - source->cumulative) / source->share + 1.0;
+    *place = u < 0.0 ? 0.0 : u < 1.0 ? u : 1.0 - 1e-12;
+    return source;
+}
+
+/* Stores a birth where a medium emits, `scale` being 1 over the photons of its
+ * source. */
+HD void photon_store_birth(const flat_scene *s, const photon_source *source,
+                           const photon_state *p, photon_counters *c,
+                           float scale)
+{
+    if (!p->emission || !s->field.births || !c->tally.sum)
+        return;
+    float weight = source->kind == PHOTON_GLOW ? s->glows[0].power * scale
+                                               : rgb_mean(p->path.beta);
+    if (radiance_splat(s, &c->tally, p->path.o, p->path.d, RADIANCE_BIRTH,
+                       0.0f, rgb_gray(weight)))
+        c->stored++;
 }
 
 /* The birth; false: it has no power. */
@@ -397,21 +417,19 @@ HD bool photon_begin(const flat_scene *s, const photon_job *job,
                      uint64_t photon, photon_state *p, photon_counters *c)
 {
     float u[PHOTON_DIMENSIONS];
-    const photon_source *source = &job->source[photon_source_of(job, photon)];
+    double place;
+    const photon_source *source = photon_source_of(job, photon, &place);
     photon += job->first;
     photon_place(job, photon, u);
-    photon_birth(s, source, u,
+    photon_birth(s, source, u, place,
                  rng_make(job->seed, job->frame, PHOTON_PASS, photon), p,
                  &c->track);
     float scale = (float)(1.0 / (source->share * job->power));
     p->path.beta = rgb_scale(p->path.beta, scale);
     c->photons++;
     photon_book(&c->books.emitted, photon_power(p));
-    if (rgb_is_black(p->path.beta))
-        return false;
-    if (p->emission && s->field.births)
-        photon_store(s, p, c, p->path.o, p->path.d, PHASE_ISOTROPIC, 0.0f);
-    return true;
+    photon_store_birth(s, source, p, c, scale);
+    return !rgb_is_black(p->path.beta);
 }
 
 /* The whole of photons [first, first + n). */

@@ -329,9 +329,9 @@ HD void photon_from_sky(const flat_scene *s, photon_state *p, const float *u,
 }
 
 HD void photon_from_glow(const flat_scene *s, photon_state *p, const float *u,
-                         rng random)
+                         double place, rng random)
 {
-    glow_sample g = glow_choose(s, &random);
+    glow_sample g = glow_choose_at(s, place, &random);
     const flat_medium *m = &s->media[g.medium];
     field_point x = field_point_make(s, m->lead, g.p);
     rgb q = medium_source(s, m, &x, medium_density(s, m, &x));
@@ -485,10 +485,11 @@ HD double photon_power(const photon_state *p)
     return p->light >= 0 ? power * (double)p->nominal : power;
 }
 
-/* The birth of one photon of a source; its power in the scene's units. */
+/* The birth of one photon of a source, at a place in [0, 1) of all of them;
+ * its power in the scene's units. */
 HD void photon_birth(const flat_scene *s, const photon_source *source,
-                     const float *u, rng random, photon_state *p,
-                     track_counters *count)
+                     const float *u, double place, rng random,
+                     photon_state *p, track_counters *count)
 {
     p->nominal = 1.0f;
     switch (source->kind) {
@@ -499,7 +500,7 @@ HD void photon_birth(const flat_scene *s, const photon_source *source,
         photon_from_sky(s, p, u, random, count);
         break;
     case PHOTON_GLOW:
-        photon_from_glow(s, p, u, random);
+        photon_from_glow(s, p, u, place, random);
         break;
     default:
         photon_from_body(s, p, u, random, count);

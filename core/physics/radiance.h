@@ -58,13 +58,10 @@ HD vec3 radiance_middle(const flat_scene *s, uint64_t brick, int i)
                      f->origin[2] + ((float)z + 0.5f) * f->side);
 }
 
-/* By what a field of balls is spread over a medium: what gives light there in
- * proportion to the density. */
-HD float radiance_thickness(const flat_scene *s, const flat_medium *m,
-                            rgb density)
+/* By what a field of balls is spread over a medium. */
+HD float radiance_thickness(const flat_medium *m, rgb density)
 {
-    return rgb_mean(rgb_mul(density, s->field.births ? m->bound
-                                                     : m->sigma_s));
+    return rgb_mean(rgb_mul(density, m->sigma_s));
 }
 
 HD void radiance_add_rgb(int64_t *sum, rgb value)
@@ -117,6 +114,9 @@ HD void radiance_span(const radiance_lattice *f, int axis, float q, float r,
     *last = *last > end ? end : *last;
 }
 
+/* Not a phase function: a birth, of which the first channel counts. */
+#define RADIANCE_BIRTH (-1)
+
 /* Adds an event at p of a photon that came along d to the cells in whose ball
  * it lies: the sums of a gather over all photons there [Jensen and Christensen
  * 1998], without a list of photons. False: it lies in none. */
@@ -144,8 +144,13 @@ HD bool radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
                 if (cell < 0 || !(vec3_dot(off, off) <= r * r))
                     continue;
                 stored = true;
+                int64_t *sum = t->sum + cell * f->numbers;
+                if (phase == RADIANCE_BIRTH) {
+                    radiance_add(sum + f->births, (double)power.r);
+                    continue;
+                }
                 vec3 eye = radiance_to_eye(s, vec3_mad(p, f->side, off));
-                radiance_add_rgb(t->sum + cell * f->numbers,
+                radiance_add_rgb(sum,
                     rgb_scale(power, phase_eval_between(phase, g, d, eye)));
             }
     return stored;
@@ -235,6 +240,7 @@ HD bool radiance_lay(const flat_scene *s, radiance_tally *t, radiance_walk *w,
 typedef struct {
     rgb eye, fluence;
     vec3 flux[3];           /* of each channel                             */
+    float births;
 } radiance_point;
 
 HD rgb radiance_rgb(const float *v)
@@ -250,6 +256,8 @@ HD void radiance_blend(const radiance_lattice *f, const float *v, bool eye,
     if (eye && f->eye >= 0) {
         out->eye = rgb_add(out->eye,
                            rgb_scale(radiance_rgb(v + f->eye), weight));
+        if (f->births)
+            out->births += v[f->births] * weight;
         return;
     }
     out->fluence = rgb_add(out->fluence,
@@ -264,6 +272,7 @@ HD void radiance_blend(const radiance_lattice *f, const float *v, bool eye,
 HD radiance_point radiance_nothing(void)
 {
     radiance_point out;
+    out.births = 0.0f;
     out.eye = out.fluence = rgb_gray(0.0f);
     out.flux[0] = out.flux[1] = out.flux[2] = vec3_make(0.0f, 0.0f, 0.0f);
     return out;
@@ -282,7 +291,8 @@ HD int radiance_place(const radiance_lattice *f, float p, int axis,
 }
 
 /* Interpolated between the centres of those cells that are there. `eye`: for
- * the light that goes on to the eye, see radiance_seen. */
+ * the light that goes on to the eye, see radiance_seen. Where there are none,
+ * nothing tells against as many births as should be. */
 HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
 {
     radiance_point out = radiance_nothing();
@@ -303,6 +313,7 @@ HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
         sum += weight;
     }
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+    out.births = sum > 0.0f ? out.births * scale : 1.0f;
     out.eye = rgb_scale(out.eye, scale);
     out.fluence = rgb_scale(out.fluence, scale);
     for (int c = 0; c < 3; c++)

@@ -109,6 +109,7 @@ typedef struct {
     uint64_t first, count;  /* bricks of the list: glow_bricks[first ...]  */
     float voxel_volume;
     float probability;      /* of choosing this list among all             */
+    float power;            /* 4 pi times the weight of all lists          */
 } flat_glow;
 
 typedef struct {
@@ -236,13 +237,15 @@ typedef struct {
     int32_t phase;          /* p                                           */
     float g;
     int32_t ball;           /* 1: instead, what all media scatter toward the
-                               eye, per length, by events within `radius`  */
-    int32_t thick;          /* ... and per thickness, see ball_cell.h      */
+                               eye, by events within `radius`, and per
+                               thickness, see ball_cell.h                  */
     float radius;
     float far;              /* none farther along the view; or infinite    */
     int32_t straight;       /* 1: only the eye's straight lines read it    */
     int32_t single;         /* 1: light straight from lights is in it      */
-    int32_t births;         /* 1: emission of media too                    */
+    int32_t births;         /* place of how many of the media's emission
+                               photons were born for each that should have
+                               been; 0: it is not asked for                */
 } radiance_lattice;
 
 /* What photons are sent to. */

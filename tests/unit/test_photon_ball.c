@@ -1,6 +1,8 @@
 /* Gathering by balls: pictures against closed forms and the path tracer's, in
  * media whose density changes within a ball. */
 #include "tests/unit/truth.h"
+#include "core/physics/glow.h"
+#include "core/prepare.h"
 
 enum { SIDE = 12, PIXELS = SIDE * SIDE };
 
@@ -101,13 +103,11 @@ static void photon_ball__births_light_a_sphere(void **state)
 
 /* ---- density that changes within a ball --------------------------------- */
 
-/* A cloud of a few voxels, dense in its middle, lit from its left. */
-static brume_scene *small_cloud(void)
+/* A field of a few voxels, exp(-steep r^2) within 7 voxels of its middle. */
+static int add_heap(brume_scene *s, double steep)
 {
     enum { VOXELS = 16 };
-    struct brume_globals g = full_transport();
     const int32_t origin[3] = {0, 0, 0}, size[3] = {2, 2, 2};
-    brume_scene *s = truth_scene(&g, 5.0, 0.45);
     struct grid *grid = grid_new(origin, size, 0.0f, truth_error());
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
@@ -120,15 +120,23 @@ static brume_scene *small_cloud(void)
         double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
         float *v = grid_brick(grid, x >> 3, y >> 3, z >> 3, truth_error());
         v[((z & 7) * 8 + (y & 7)) * 8 + (x & 7)] =
-            (float)(r < 7.0 ? exp(-0.1 * r * r) : 0.0);
+            (float)(r < 7.0 ? exp(-steep * r * r) : 0.0);
     }
     grid_finish(grid);
     struct brume_field f = BRUME_FIELD_INIT;
     f.kind = BRUME_FIELD_GRID;
     f.grid = brume_add_grid(s, grid, truth_error());
     grid_free(grid);
+    return brume_add_field(s, &f, truth_error());
+}
+
+/* A cloud of a few voxels, dense in its middle, lit from its left. */
+static brume_scene *small_cloud(void)
+{
+    struct brume_globals g = full_transport();
+    brume_scene *s = truth_scene(&g, 5.0, 0.45);
     struct brume_medium m = truth_medium(0.1, 12.0, 0.3);
-    m.density[0] = brume_add_field(s, &f, truth_error());
+    m.density[0] = add_heap(s, 0.1);
     m.densities = 1;
     truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
     struct brume_light l = BRUME_LIGHT_INIT;
@@ -169,11 +177,94 @@ static void photon_ball__light_stays_where_media_are_thick(void **state)
     brume_scene_free(s);
 }
 
+/* Soot that is thickest and hottest in its middle, where it glows a thousand
+ * times as brightly as a few voxels off. */
+static brume_scene *small_fire(void)
+{
+    struct brume_globals g = full_transport();
+    brume_scene *s = truth_scene(&g, 5.0, 0.45);
+    struct brume_medium m = truth_medium(4.0, 1e-3, 0.0);
+    m.density[0] = add_heap(s, 0.02);
+    m.densities = 1;
+    m.fire.on = true;
+    m.fire.temperature = add_heap(s, 0.05);
+    m.fire.kelvin_scale = 1400.0;
+    m.fire.kelvin_offset = 600.0;
+    m.fire.reference = 2000.0;
+    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    return s;
+}
+
+/* Balls of two voxels, and of four: what is born there would be seen as if it
+ * were where the ball is colder and thinner. The same seeds see both. */
+static void photon_ball__births_are_as_hot_as_the_place(void **state)
+{
+    (void)state;
+    enum { TIMES = 6 };
+    brume_scene *s = small_fire();
+    for (int i = 0; i < 2; i++) {
+        double sum = 0.0, squares = 0.0;
+        struct brume_options o = ball_options(1);
+        o.photons.count = 50000;
+        o.photons.spacing = i == 0 ? 0.125 : 0.25;
+        for (o.seed = 1; o.seed <= TIMES; o.seed++) {
+            o.photons.emission = BRUME_EMISSION_LINE;
+            double line = render_mean(s, &o);
+            o.photons.emission = BRUME_EMISSION_PHOTONS;
+            double off = render_mean(s, &o) / line - 1.0;
+            sum += off / TIMES;
+            squares += off * off / TIMES;
+        }
+        double noise = sqrt((squares - sum * sum) / (TIMES - 1));
+        if (!(fabs(sum) < 4.0 * noise + 2e-3) || !(noise < 1e-3))
+            fail_msg("cells of %g: births %+.5f +- %.5f of lines",
+                     o.photons.spacing, sum, noise);
+    }
+    brume_scene_free(s);
+}
+
+/* Of n even places in the order of voxels each has its share, rounded up or
+ * down: the published rule of counts. */
+static void photon_ball__voxels_have_their_share_of_births(void **state)
+{
+    (void)state;
+    enum { BIRTHS = 100000, VOXELS = 64 * 64 * 64 };
+    static int born[VOXELS];
+    static double share[VOXELS];
+    brume_scene *s = small_fire();
+    struct prepare job = {.scene = s, .threads = 1};
+    struct flat *flat = prepare_scene(&job, truth_error());
+    assert_non_null(flat);
+    const flat_scene *v = &flat->view;
+    const flat_glow *g = &v->glows[0];
+    assert_int_equal(v->glows_count, 1);
+    for (int i = 0; i < BIRTHS; i++) {
+        rng random = rng_make(1, 0, 0, (uint64_t)i);
+        glow_sample x = glow_choose_at(v, (i + 0.3) / BIRTHS, &random);
+        vec3 q = affine_point(&g->to_index, x.p);
+        int at[3], n = 0;
+        for (int k = 0; k < 3; k++) {
+            at[k] = hd_floor(vec3_get(q, k)) - g->origin[k];
+            assert_true(at[k] >= 0 && at[k] < 64);
+            n = 64 * n + at[k];
+        }
+        born[n]++;
+        share[n] = (double)(x.pdf * g->voxel_volume) * BIRTHS;
+    }
+    for (int i = 0; i < VOXELS; i++)
+        if (born[i] > 0 && !(fabs(born[i] - share[i]) < 1.02))
+            fail_msg("voxel %d: %d births of %g", i, born[i], share[i]);
+    flat_free(flat);
+    brume_scene_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(photon_ball__births_light_a_sphere),
         cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
+        cmocka_unit_test(photon_ball__births_are_as_hot_as_the_place),
+        cmocka_unit_test(photon_ball__voxels_have_their_share_of_births),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
