@@ -43,7 +43,15 @@ struct backend {
     /* The field has been laid out anew: its sums are zero. NULL where it can't
      * be while the backend is open. */
     bool (*renew)(void *state, struct brume_error *err);
+    /* How many devices there are where it can run, and which of them is the
+     * calling thread's from now on; NULL: there are none to choose from. */
+    int (*devices)(void);
+    void (*use)(int device);
 };
+
+/* Where a backend keeps what stays on its device from frame to frame of a
+ * film, NULL at first; `release` frees it with the still. */
+void **still_device(struct brume_still *still, void (*release)(void *));
 
 /* What the frame asks of every pixel. */
 static inline pixel_job backend_pixels(const struct backend_frame *frame)

@@ -495,6 +495,9 @@ struct brume_stats {
     /* Of large meshes of a film: trees that were built, and had from the frame
      * before. */
     uint64_t trees_built, trees_kept;
+    int worker;                     /* of a film, from 0: its device       */
+    /* Of large arrays, to that device, since the worker's last picture. */
+    uint64_t uploaded;
     struct brume_photon_stats photons;
 };
 

@@ -1,5 +1,5 @@
-/* brume_film.h - a part of brume.h: the frames of a film, rendered by a thread
- * of its own while the caller reads the next scene and writes the last
+/* brume_film.h - a part of brume.h: the frames of a film, rendered by threads
+ * of their own while the caller reads the next scene and writes the last
  * picture. Where the options ask for it, the field of light that is scattered
  * often is a mean over neighbouring frames; each field is computed once and
  * kept while it is needed. A picture depends on the frames within its reach
@@ -22,6 +22,15 @@ struct brume_film_events {
 
 BRUME_API struct brume_film *
 brume_film_new(const struct brume_film_events *events, struct brume_error *err);
+/* How many frames are worked at, at once, each on a device of its own where
+ * there are GPUs; before the first is pushed. At first it is one. */
+enum { BRUME_MAX_WORKERS = 64 };
+BRUME_API bool brume_film_workers(struct brume_film *film, int count,
+                                  struct brume_error *err);
+/* GPUs that frames with these options can be dealt to; 0: the CPU renders
+ * them, and `why` (of `size` bytes) says why. */
+BRUME_API int brume_film_devices(const struct brume_options *options, char *why,
+                                 size_t size);
 /* Stops what is under way. */
 BRUME_API void brume_film_free(struct brume_film *film);
 

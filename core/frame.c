@@ -46,6 +46,30 @@ static const struct backend *choose_backend(const struct brume_options *o,
     return NULL;
 }
 
+void frame_use_device(int device)
+{
+    char why[256];
+    if (device > 0 && backend_cuda.use &&
+        backend_cuda.available(why, sizeof why) &&
+        device < backend_cuda.devices())
+        backend_cuda.use(device);
+}
+
+int brume_film_devices(const struct brume_options *options, char *why,
+                       size_t size)
+{
+    struct brume_error err = {0};
+    const struct backend *b = choose_backend(options, &err);
+    snprintf(why, size, "%s", err.text);
+    if (b && b->devices)
+        return b->devices();
+    if (options->backend == BRUME_BACKEND_CPU)
+        snprintf(why, size, "the CPU is asked for");
+    else if (b && backend_cuda.available(why, size))
+        snprintf(why, size, "it can't run this integrator yet");
+    return 0;
+}
+
 static void set_goal(struct frame_job *j)
 {
     const struct brume_options *o = j->options;

@@ -23,6 +23,10 @@ struct frame_job {
     bool stopped;
 };
 
+/* From now on the calling thread works on this one of the GPUs, if there are
+ * so many; at first it does on the first. */
+void frame_use_device(int device);
+
 /* Prepares and lays out; `options` and `out` have to stay where they are, the
  * scene is not needed any more. To be closed in any case. */
 bool frame_open(struct frame_job *job, brume_scene *scene,

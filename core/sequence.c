@@ -1,6 +1,7 @@
-/* The frames of a film: what is handed over and asked for is done one by one
- * by a thread, which tells what it warns of and how far it is by way of the
- * caller's. */
+/* The frames of a film: what is handed over and asked for is done by workers,
+ * a thread for each device, which tell what they warn of and how far they are
+ * by way of the caller's. What a task needs is done before it, by whichever
+ * worker: the pictures are the same however many there are. */
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -33,11 +34,13 @@ struct result {
     struct result *next;
     struct brume_frame frame;
     struct brume_error err;
+    bool ready;
 };
 
 struct task {
     struct task *next;
     enum task_kind kind;
+    bool running;
     struct shot *shot;            /* that is pushed                        */
     struct result *result;        /* of what is asked for                  */
     uint32_t number, first, last; /* frames                                */
@@ -48,20 +51,29 @@ struct text {
     char text[];
 };
 
+struct worker {
+    struct brume_film *film;
+    pthread_t thread;
+    int number;                /* also of its device                   */
+    struct brume_still *still; /* of all but the first, who have that
+                                  of the options                       */
+};
+
 struct brume_film {
     struct brume_film_events events;
-    pthread_t thread;
+    struct worker *worker;
+    int workers, wanted;
     pthread_mutex_t lock; /* of what follows, up to `stop`               */
     pthread_cond_t work, news;
-    struct task *task; /* first to do                                 */
-    struct result *result;
+    struct task *task;     /* first to do; those that run too             */
+    struct result *result; /* in the order of what was asked for      */
     struct text *warning;
     struct brume_progress progress;
     bool quit;
     int asked; /* pictures that next() has yet to give            */
+    struct shot *shot;
+    uint64_t ring; /* bytes of the fields of all shots            */
     atomic_bool stop;
-    struct shot *shot; /* the thread's own                            */
-    uint64_t ring;     /* bytes of the fields of all shots            */
 };
 
 /* Items of these lists begin with their link. */
@@ -109,21 +121,16 @@ static void on_warn(void *user, const char *text)
     pthread_mutex_unlock(&film->lock);
 }
 
-static void give(struct brume_film *film, struct result *result)
-{
-    pthread_mutex_lock(&film->lock);
-    append(&film->result, result);
-    pthread_cond_signal(&film->news);
-    pthread_mutex_unlock(&film->lock);
-}
-
 /* ---- shots -------------------------------------------------------------- */
 
-static struct shot *find_shot(const struct brume_film *film, uint32_t number)
+/* The list changes; what is on it stays until it is forgotten. */
+static struct shot *find_shot(struct brume_film *film, uint32_t number)
 {
+    pthread_mutex_lock(&film->lock);
     struct shot *shot = film->shot;
     while (shot && shot->number != number)
         shot = shot->next;
+    pthread_mutex_unlock(&film->lock);
     return shot;
 }
 
@@ -140,7 +147,8 @@ static void free_shot(struct brume_film *film, struct shot *shot)
 {
     close_job(shot);
     if (shot->traced) {
-        film->ring -= filter_bytes(&shot->field);
+        __atomic_fetch_sub(&film->ring, filter_bytes(&shot->field),
+                           __ATOMIC_RELAXED);
         filter_release(&shot->field);
     }
     brume_frame_free(&shot->out);
@@ -153,18 +161,21 @@ static bool keep_field(struct brume_film *film, struct shot *shot)
     struct frame_job *job = &shot->job;
     if (!plan_stages(job->flat, &shot->options).photons)
         return true;
-    job->held = film->ring;
+    job->held = __atomic_load_n(&film->ring, __ATOMIC_RELAXED);
     if (!frame_trace(job, &shot->err) ||
         !filter_keep(job->flat, job->power, &shot->field, &shot->err))
         return false;
     shot->traced = true;
-    film->ring += filter_bytes(&shot->field);
+    __atomic_fetch_add(&film->ring, filter_bytes(&shot->field),
+                       __ATOMIC_RELAXED);
     return true;
 }
 
-static bool open_job(struct shot *shot)
+static bool open_job(const struct worker *worker, struct shot *shot)
 {
     shot->open = true;
+    if (worker->still && shot->options.still)
+        shot->options.still = worker->still;
     bool good = frame_open(&shot->job, shot->scene, &shot->options, &shot->out,
                            &shot->err);
     brume_scene_free(shot->scene);
@@ -173,17 +184,22 @@ static bool open_job(struct shot *shot)
 }
 
 /* Where no filter is asked for, nothing is done before the picture is. */
-static void push(struct brume_film *film, struct shot *shot)
+static void push(const struct worker *worker, struct shot *shot)
 {
+    struct brume_film *film = worker->film;
+    pthread_mutex_lock(&film->lock);
     append(&film->shot, shot);
+    pthread_mutex_unlock(&film->lock);
     if (brume_film_reach(&shot->options) == 0)
         return;
-    if (!open_job(shot) || !keep_field(film, shot) || !shot->picture)
+    if (!open_job(worker, shot) || !keep_field(film, shot) || !shot->picture)
         close_job(shot);
 }
 
 static void forget(struct brume_film *film, uint32_t below)
 {
+    struct shot *gone = NULL;
+    pthread_mutex_lock(&film->lock);
     struct shot **at = &film->shot;
     while (*at) {
         struct shot *shot = *at;
@@ -192,14 +208,21 @@ static void forget(struct brume_film *film, uint32_t below)
             continue;
         }
         *at = shot->next;
-        free_shot(film, shot);
+        shot->next = gone;
+        gone = shot;
+    }
+    pthread_mutex_unlock(&film->lock);
+    while (gone) {
+        struct shot *next = gone->next;
+        free_shot(film, gone);
+        gone = next;
     }
 }
 
 /* ---- pictures ----------------------------------------------------------- */
 
 /* The fields within reach; false with err set where a frame failed. */
-static bool list_fields(const struct brume_film *film, const struct task *task,
+static bool list_fields(struct brume_film *film, const struct task *task,
                         int reach, const struct filter_field **fields,
                         struct brume_error *err)
 {
@@ -246,15 +269,16 @@ static bool filter_shot(struct brume_film *film, const struct task *task,
         return false;
     if (!run_filter(shot, fields, reach, err))
         return false;
-    stats->ring = shot->job.held = film->ring;
+    stats->ring = shot->job.held = __atomic_load_n(&film->ring,
+                                                   __ATOMIC_RELAXED);
     stats->seconds_filter = timer_seconds() - start;
     return true;
 }
 
-static bool render_shot(struct brume_film *film, const struct task *task,
-                        struct brume_error *err)
+static bool render_shot(const struct worker *worker, const struct task *task,
+                        struct shot *shot, struct brume_error *err)
 {
-    struct shot *shot = find_shot(film, task->number);
+    struct brume_film *film = worker->film;
     if (!shot)
         return brume_fail(err, BRUME_ERR_USAGE, "frame %lu was not pushed",
                           (unsigned long)task->number);
@@ -264,7 +288,7 @@ static bool render_shot(struct brume_film *film, const struct task *task,
                           "its own",
                           (unsigned long)task->number);
     if (!shot->err.code && !shot->open)
-        open_job(shot);
+        open_job(worker, shot);
     if (shot->err.code) {
         *err = shot->err;
         return false;
@@ -273,64 +297,126 @@ static bool render_shot(struct brume_film *film, const struct task *task,
            frame_render(&shot->job, shot->traced, err);
 }
 
-static void make_picture(struct brume_film *film, const struct task *task)
+static void make_picture(const struct worker *worker, const struct task *task)
 {
     struct result *result = task->result;
-    struct shot *shot = find_shot(film, task->number);
-    if (render_shot(film, task, &result->err)) {
+    struct shot *shot = find_shot(worker->film, task->number);
+    if (render_shot(worker, task, shot, &result->err)) {
         result->frame = shot->out;
+        result->frame.stats.worker = worker->number;
         memset(&shot->out, 0, sizeof shot->out);
     }
     if (shot)
         close_job(shot);
 }
 
-/* ---- the thread --------------------------------------------------------- */
+/* ---- workers ------------------------------------------------------------ */
 
-static void do_task(struct brume_film *film, struct task *task)
+/* Whether what stands before a task lets it begin: a picture needs what was
+ * pushed before it, and what is forgotten must not be in use. */
+static bool may_begin(const struct brume_film *film, const struct task *task)
+{
+    for (const struct task *t = film->task; t != task; t = t->next) {
+        bool above = t->kind == TASK_FORGET && task->kind != TASK_FORGET &&
+                     task->number >= t->number;
+        if (task->kind == TASK_FORGET ||
+            (task->kind == TASK_ASK && t->kind == TASK_PUSH) ||
+            (t->kind == TASK_FORGET && !above))
+            return false;
+    }
+    return true;
+}
+
+static struct task *next_task(const struct brume_film *film)
+{
+    struct task *task = film->task;
+    while (task && (task->running || !may_begin(film, task)))
+        task = task->next;
+    return task;
+}
+
+static void do_task(const struct worker *worker, struct task *task)
 {
     switch (task->kind) {
     case TASK_PUSH:
-        push(film, task->shot);
+        push(worker, task->shot);
         break;
     case TASK_FORGET:
-        forget(film, task->number);
+        forget(worker->film, task->number);
         break;
     case TASK_ASK:
-        make_picture(film, task);
-        give(film, task->result);
+        make_picture(worker, task);
         break;
     }
 }
 
+/* Takes a task that is done off the list; others may wait for it. */
+static void finish_task(struct brume_film *film, struct task *task)
+{
+    void *at = &film->task;
+    while (*(void **)at != task)
+        at = *(void **)at;
+    *(void **)at = task->next;
+    if (task->result) {
+        task->result->ready = true;
+        pthread_cond_signal(&film->news);
+    }
+    pthread_cond_broadcast(&film->work);
+    free(task);
+}
+
 static void *run(void *context)
 {
-    struct brume_film *film = context;
-    for (;;) {
-        pthread_mutex_lock(&film->lock);
-        while (!film->task && !film->quit)
+    struct worker *worker = context;
+    struct brume_film *film = worker->film;
+    struct task *task = NULL;
+    frame_use_device(worker->number);
+    pthread_mutex_lock(&film->lock);
+    while (!film->quit) {
+        task = next_task(film);
+        if (!task) {
             pthread_cond_wait(&film->work, &film->lock);
-        struct task *task = film->quit ? NULL : take_first(&film->task);
+            continue;
+        }
+        task->running = true;
         pthread_mutex_unlock(&film->lock);
-        if (!task)
-            return NULL;
-        do_task(film, task);
-        free(task);
+        do_task(worker, task);
+        pthread_mutex_lock(&film->lock);
+        finish_task(film, task);
     }
+    pthread_mutex_unlock(&film->lock);
+    return NULL;
+}
+
+static bool start_one(struct brume_film *film, struct brume_error *err)
+{
+    struct worker *worker = &film->worker[film->workers];
+    *worker = (struct worker){.film = film, .number = film->workers};
+    if (film->workers > 0 && !(worker->still = brume_still_new(err)))
+        return false;
+    int reason = pthread_create(&worker->thread, NULL, run, worker);
+    film->workers += reason == 0;
+    if (reason == 0)
+        return true;
+    brume_still_free(worker->still);
+    return brume_fail(err, BRUME_ERR_MEMORY,
+                      "the thread that renders can't be started: %s",
+                      strerror(reason));
 }
 
 /* Signals are for the caller's thread. */
 static bool start(struct brume_film *film, struct brume_error *err)
 {
     sigset_t all, before;
+    int count = film->wanted;
+    film->worker = memory_new((size_t)count, sizeof *film->worker, err);
+    bool good = film->worker;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    int reason = pthread_create(&film->thread, NULL, run, film);
+    while (good && film->workers < count)
+        good = start_one(film, err);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    return reason == 0 ||
-           brume_fail(err, BRUME_ERR_MEMORY,
-                      "the thread that renders can't be started: %s",
-                      strerror(reason));
+    return good;
 }
 
 /* ---- for the caller ----------------------------------------------------- */
@@ -343,21 +429,46 @@ struct brume_film *brume_film_new(const struct brume_film_events *events,
         return NULL;
     if (events)
         film->events = *events;
+    film->wanted = 1;
     pthread_mutex_init(&film->lock, NULL);
     pthread_cond_init(&film->work, NULL);
     pthread_cond_init(&film->news, NULL);
-    if (start(film, err))
-        return film;
-    free(film);
-    return NULL;
+    return film;
+}
+
+bool brume_film_workers(struct brume_film *film, int count,
+                        struct brume_error *err)
+{
+    if (count < 1 || count > BRUME_MAX_WORKERS)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "a film of %d workers; it has 1 to %d", count,
+                          BRUME_MAX_WORKERS);
+    if (film->workers > 0)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "the film's workers have begun already");
+    film->wanted = count;
+    return true;
 }
 
 static void free_task(struct brume_film *film, struct task *task)
 {
     if (task->shot)
         free_shot(film, task->shot);
-    free(task->result);
     free(task);
+}
+
+static void stop_workers(struct brume_film *film)
+{
+    atomic_store(&film->stop, true);
+    pthread_mutex_lock(&film->lock);
+    film->quit = true;
+    pthread_cond_broadcast(&film->work);
+    pthread_mutex_unlock(&film->lock);
+    for (int i = 0; i < film->workers; i++) {
+        pthread_join(film->worker[i].thread, NULL);
+        brume_still_free(film->worker[i].still);
+    }
+    free(film->worker);
 }
 
 void brume_film_free(struct brume_film *film)
@@ -365,12 +476,7 @@ void brume_film_free(struct brume_film *film)
     void *item;
     if (!film)
         return;
-    atomic_store(&film->stop, true);
-    pthread_mutex_lock(&film->lock);
-    film->quit = true;
-    pthread_cond_signal(&film->work);
-    pthread_mutex_unlock(&film->lock);
-    pthread_join(film->thread, NULL);
+    stop_workers(film);
     while ((item = take_first(&film->task)))
         free_task(film, item);
     while ((item = take_first(&film->shot)))
@@ -415,7 +521,10 @@ static void put(struct brume_film *film, struct task *task)
 {
     pthread_mutex_lock(&film->lock);
     append(&film->task, task);
-    film->asked += task->kind == TASK_ASK;
+    if (task->result) {
+        append(&film->result, task->result);
+        film->asked++;
+    }
     pthread_cond_signal(&film->work);
     pthread_mutex_unlock(&film->lock);
 }
@@ -426,7 +535,7 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
 {
     struct task *task = memory_new(1, sizeof *task, err);
     struct shot *shot = memory_new(1, sizeof *shot, err);
-    if (!task || !shot) {
+    if (!task || !shot || (film->workers == 0 && !start(film, err))) {
         brume_scene_free(scene);
         free(task);
         free(shot);
@@ -440,6 +549,7 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
     shot->options.warn = on_warn;
     shot->options.user = film;
     task->kind = TASK_PUSH;
+    task->number = shot->number;
     task->shot = shot;
     put(film, task);
     return true;
@@ -511,7 +621,8 @@ static struct result *wait_for_result(struct brume_film *film)
     pthread_mutex_lock(&film->lock);
     for (;;) {
         struct text *warning = take_first(&film->warning);
-        struct result *result = warning ? NULL : take_first(&film->result);
+        bool ready = !warning && film->result && film->result->ready;
+        struct result *result = ready ? take_first(&film->result) : NULL;
         if (result) {
             film->asked--;
             memset(&film->progress, 0, sizeof film->progress);
@@ -521,7 +632,7 @@ static struct result *wait_for_result(struct brume_film *film)
         if (!warning)
             wait_for_news(film);
         struct brume_progress progress = film->progress;
-        bool quiet = film->result || film->warning;
+        bool quiet = (film->result && film->result->ready) || film->warning;
         pthread_mutex_unlock(&film->lock);
         if (warning)
             tell_warning(film, warning);

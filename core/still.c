@@ -1,4 +1,5 @@
 #include "core/still.h"
+#include "core/backend.h"
 #include "core/kdtree.h"
 #include "lib/memory.h"
 #include <stdlib.h>
@@ -36,9 +37,17 @@ BRUME_API void brume_still_free(struct brume_still *still)
     forget_tree(still);
     forget_bvh(still);
     mesh_trees_drop(&still->tree, true);
+    if (still->device)
+        still->release(still->device);
     free(still->before);
     free(still->item);
     free(still);
+}
+
+void **still_device(struct brume_still *still, void (*release)(void *))
+{
+    still->release = release;
+    return &still->device;
 }
 
 /* ---- what stands still -------------------------------------------------- */

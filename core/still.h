@@ -25,6 +25,8 @@ struct brume_still {
     int bvh_builds, depth;
     struct mesh_tree *tree; /* of large meshes                             */
     int tree_builds, tree_uses;
+    void *device;           /* a backend's own                             */
+    void (*release)(void *device);
 };
 
 /* Builds the BVH of what was not there in the frame before, and takes over or

@@ -88,7 +88,7 @@ option_set set_input, set_output_file, set_file_type, set_declare, set_clock;
 option_set set_quality, set_file_gamma, set_stream, set_console,
            set_stream_file;
 option_set set_action, set_integrator, set_transport, set_shard,
-           set_temporal;
+           set_gpus, set_temporal;
 option_set set_missing, set_missing_flag, set_shell;
 
 /* on, true, yes, 1 and their opposites; case does not matter. */

@@ -508,6 +508,14 @@ bool set_shard(struct setting *s)
                          s->value);
 }
 
+bool set_gpus(struct setting *s)
+{
+    if (strcmp(s->value, "all") != 0)
+        return set_integer(s);
+    s->options->gpus = -1;
+    return true;
+}
+
 bool set_missing(struct setting *s)
 {
     return setting_error(s, "not supported yet");

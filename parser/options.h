@@ -91,6 +91,7 @@ struct options {
     int spp;
     double error, seconds;
     int threads;
+    int gpus;                   /* -1: all; 0: all, if there are any       */
     uint64_t seed, memory, photons;
     double field_spacing;
     /* Of reading a scene; 0: the default of struct parse_limits. */

@@ -26,8 +26,8 @@ struct order {
     struct parse_origins origins; /* of all frames within its reach      */
 };
 
-/* One picture is rendered while another one is read for. */
-enum { MOST_ORDERS = 2 };
+/* One picture more is asked for than are rendered at once. */
+enum { MOST_ORDERS = BRUME_MAX_WORKERS + 1 };
 
 struct film_run {
     struct reel *reel;
@@ -36,6 +36,7 @@ struct film_run {
     size_t readings, room;
     struct order order[MOST_ORDERS];
     int orders;
+    int workers; /* 0: not known yet                            */
 };
 
 /* ---- writing ----------------------------------------------------------- */
@@ -204,6 +205,28 @@ static struct reading *new_reading(struct film_run *run, int number,
     return reading;
 }
 
+/* A worker for each GPU that the first frame can use, or as many as the user
+ * says. */
+static bool choose_workers(struct film_run *run,
+                           const struct brume_options *options,
+                           struct brume_error *err)
+{
+    const struct options *o = run->reel->options;
+    char why[256];
+    int devices = brume_film_devices(options, why, sizeof why);
+    if (o->gpus != 0 && devices == 0)
+        return brume_fail(err, BRUME_ERR_DEVICE,
+                          "--gpus: no GPU can be used: %s", why);
+    if (o->gpus > devices)
+        return brume_fail(err, BRUME_ERR_DEVICE, "--gpus %d: there %s %d GPU%s",
+                          o->gpus, devices == 1 ? "is" : "are", devices,
+                          devices == 1 ? "" : "s");
+    run->workers = o->gpus > 0 ? o->gpus : devices > 0 ? devices : 1;
+    if (run->workers > BRUME_MAX_WORKERS)
+        run->workers = BRUME_MAX_WORKERS;
+    return brume_film_workers(run->film, run->workers, err);
+}
+
 /* Reads a frame's scene and hands it over. */
 static enum brume_code read_frame(struct film_run *run, struct reading *reading)
 {
@@ -219,6 +242,10 @@ static enum brume_code read_frame(struct film_run *run, struct reading *reading)
     if (reel->sink)
         reel->sink->adjust(reel->sink->user, &options);
     reading->reach = brume_film_reach(&options);
+    if (run->workers == 0 && !choose_workers(run, &options, &err)) {
+        brume_scene_free(scene.scene);
+        return reel_fail(reel, &err);
+    }
     if (brume_film_push(run->film, scene.scene, &options, reading->picture,
                         &err))
         return BRUME_OK;
@@ -310,7 +337,9 @@ static enum brume_code finish_order(struct film_run *run)
     struct brume_error err = {0};
     if (events->stopped(events->user))
         return BRUME_STOPPED;
-    run->order[0] = run->order[--run->orders];
+    run->orders--;
+    memmove(run->order, run->order + 1,
+            (size_t)run->orders * sizeof *run->order);
     events->frame(events->user, &reel->frames, order.record.number);
     bool ok = finish_picture(run, &order, &err);
     parse_origins_release(&order.origins);
@@ -375,7 +404,7 @@ static enum brume_code run_frame(struct film_run *run, int number)
     if (!add_order(run, find_reading(run, number), &err) ||
         !forget_below(run, (int64_t)number + reel->frames.step - reach, &err))
         return reel_fail(reel, &err);
-    return run->orders < MOST_ORDERS ? BRUME_OK : finish_order(run);
+    return run->orders <= run->workers ? BRUME_OK : finish_order(run);
 }
 
 /* What was asked for before a frame that failed is finished. */

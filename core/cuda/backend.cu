@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 #include "core/cuda/backend.cuh"
+#include "core/cuda/resident.cuh"
 
 namespace
 {
@@ -30,12 +31,31 @@ bool cuda_available(char *why, size_t size)
     return false;
 }
 
+int cuda_devices()
+{
+    int devices = 0;
+    return cudaGetDeviceCount(&devices) == cudaSuccess ? devices : 0;
+}
+
+void cuda_use(int device)
+{
+    cudaSetDevice(device);
+}
+
 void cuda_close(void *state)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
     if (s)
         device_arena_free(&s->arena);
     delete s;
+}
+
+/* Whether an array of the scene stays on the device: the field does not, which
+ * is written there. */
+bool stays(const cuda_state *s, const void *array, size_t bytes)
+{
+    return resident_is_worth(s->kept, bytes) &&
+           array != s->frame.flat->view.radiance;
 }
 
 size_t frame_bytes(const cuda_state *s)
@@ -45,10 +65,25 @@ size_t frame_bytes(const cuda_state *s)
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
                    photons_bytes(s);
-#define X(type, name) bytes += device_round(view->name##_count * sizeof(type));
+#define X(type, name)                                                          \
+    if (!stays(s, view->name, view->name##_count * sizeof(type)))              \
+        bytes += device_round(view->name##_count * sizeof(type));
     SCENE_ARRAYS(X)
 #undef X
     return bytes;
+}
+
+/* NULL with err set, where there is something to upload. */
+const void *upload_array(cuda_state *s, const void *from, size_t bytes,
+                         const char *what, brume_error *err)
+{
+    if (stays(s, from, bytes))
+        return resident_take(s->kept, from, bytes, err);
+    void *to = device_take(&s->arena, bytes);
+    return device_check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice),
+                        what, err)
+               ? to
+               : nullptr;
 }
 
 /* Copies every array of the scene and points the device's view at them. */
@@ -57,17 +92,18 @@ bool upload(cuda_state *s, brume_error *err)
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
     s->job.scene = *from;
+    resident_begin(s->kept);
 #define X(type, name)                                                          \
     if (good) {                                                                \
-        size_t bytes = from->name##_count * sizeof(type);                      \
-        void *to = device_take(&s->arena, bytes);                              \
-        good = device_check(                                                   \
-            cudaMemcpy(to, from->name, bytes, cudaMemcpyHostToDevice),         \
-            "uploading " #name, err);                                          \
+        const void *to = upload_array(s, from->name,                           \
+                                      from->name##_count * sizeof(type),       \
+                                      "uploading " #name, err);                \
+        good = to != nullptr;                                                  \
         s->job.scene.name = static_cast<const type *>(to);                     \
     }
     SCENE_ARRAYS(X)
 #undef X
+    resident_end(s->kept);
     s->cells = const_cast<float *>(s->job.scene.radiance);
     return good;
 }
@@ -109,6 +145,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
         return nullptr;
     }
     s->frame = *frame;
+    s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs);
     s->photons = choose(photon_kernels, frame->stages->needs);
     describe_job(&s->job, frame);
@@ -135,6 +172,7 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
 {
     cuda_state *s = static_cast<cuda_state *>(state);
     const film *f = s->frame.film;
+    stats->uploaded += resident_uploaded(s->kept);
     if (film_pixels(f) == 0)
         return true;
     if (!device_check(cudaMemset(s->job.count, 0, sizeof *s->job.count),
@@ -171,6 +209,6 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 }
 
 extern "C" const struct backend backend_cuda = {
-    "cuda",    cuda_available, cuda_open,   cuda_trace, cuda_gather,
-    cuda_take, cuda_put,       cuda_sample, cuda_close, nullptr,
+    "cuda",   cuda_available, cuda_open,  cuda_trace, cuda_gather,  cuda_take,
+    cuda_put, cuda_sample,    cuda_close, nullptr,    cuda_devices, cuda_use,
 };

@@ -9,6 +9,7 @@ extern "C" {
 struct cuda_state {
     backend_frame frame;
     device_arena arena;
+    struct resident_set *kept;  /* beside it, or NULL                      */
     sample_job job;             /* its scene's pointers are the device's   */
     const sample_stage *stage;
     const photon_stage *photons;

@@ -70,4 +70,15 @@ brume warns.pov --check +KFF4
 exits 0
 is "$(grep -c 'warning: mind the gap' said)" 1
 
+new_case '--gpus where there is none, or for what the CPU renders'
+rm -f s*.png
+brume s.pov +W4 +H4 --spp 1 +KFF2 --backend cpu --gpus 2
+exits 7
+says '--gpus: no GPU can be used: the CPU is asked for'
+lacks s1.png
+brume s.pov --gpus 0
+exits 2
+brume s.pov --gpus some
+exits 2
+
 end_cases

@@ -280,6 +280,24 @@ bool brume_film_taps(struct brume_photon_options *options, int taps)
     return taps == 1 || taps == 3 || taps == 5;
 }
 
+bool brume_film_workers(struct brume_film *film, int count,
+                        struct brume_error *err)
+{
+    (void)film;
+    (void)count;
+    (void)err;
+    return true;
+}
+
+int brume_film_devices(const struct brume_options *options, char *why,
+                       size_t size)
+{
+    (void)options;
+    (void)why;
+    (void)size;
+    return 0;
+}
+
 bool brume_film_push(struct brume_film *film, brume_scene *scene,
                      const struct brume_options *options, bool picture,
                      struct brume_error *err)
