@@ -442,7 +442,8 @@ static bool lay_out(struct frame_job *j, const brume_scene *scene,
                     struct brume_error *err)
 {
     const struct brume_options *o = j->options;
-    bool follows = o->photons.adaptive && brume_film_reach(o) > 0;
+    bool follows = o->photons.adaptive && !o->photons.unmoved &&
+                   brume_film_reach(o) > 0;
     return plan_layout(j->flat, o, err) &&
            (!follows || drift_find(scene, j->flat, o->threads, err));
 }

@@ -387,7 +387,8 @@ static struct layout begin(struct flat *flat,
                      flat->lights_count > 0;
     l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
     choose_numbers(&l);
-    l.snap = !l.passes && brume_film_reach(options) > 0;
+    l.snap = !l.passes &&
+             (brume_film_reach(options) > 0 || l.options->film_cells);
     return l;
 }
 

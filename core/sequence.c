@@ -271,6 +271,7 @@ static bool filter_shot(struct brume_film *film, const struct task *task,
         return false;
     stats->ring = shot->job.held = __atomic_load_n(&film->ring,
                                                    __ATOMIC_RELAXED);
+    stats->drifts = shot->field.drift != NULL;
     stats->seconds_filter = timer_seconds() - start;
     return true;
 }

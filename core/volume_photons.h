@@ -50,10 +50,12 @@ struct brume_photon_options {
     int taps;
     bool adaptive;
     double weight[BRUME_MAX_TAPS];
+    bool unmoved;               /* adaptive: velocities have no say         */
+    bool film_cells;            /* as with a filter, without one too        */
 };
 #define BRUME_PHOTONS_INIT                                                    \
     {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
-     false, false, 0, false, {0}}
+     false, false, 0, false, {0}, false, false}
 
 /* `preset paper`: the published choices of each stage (Cha, Yi and Ihm 2010);
  * counts, sizes and filters stay. */
@@ -79,6 +81,7 @@ struct brume_photon_stats {
     double side;                /* of a cell, in scene units               */
     uint64_t bytes;             /* of the field, its sums included         */
     uint64_t ring;              /* bytes of fields kept for the filter     */
+    bool drifts;                /* it follows velocities                   */
     double seconds, seconds_filter;
 };
 

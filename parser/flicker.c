@@ -14,12 +14,24 @@ static size_t numbers(const struct flicker_film *f)
     return 3 * (size_t)f->width * (size_t)f->height;
 }
 
+static double truth(const struct flicker_film *f, int t, size_t i)
+{
+    return 0.5 *
+           ((double)f->reference[0][t][i] + (double)f->reference[1][t][i]);
+}
+
+/* What is more than in one of the references. */
+static double over(const struct flicker_film *f, int which, int t, size_t i)
+{
+    return (double)f->frame[t][i] - (double)f->reference[which][t][i];
+}
+
 static double mean_of(const struct flicker_film *f)
 {
     double sum = 0.0;
     for (int t = 0; t < f->frames; t++)
         for (size_t i = 0; i < numbers(f); i++)
-            sum += (double)f->reference[t][i];
+            sum += truth(f, t, i);
     return sum / ((double)f->frames * (double)numbers(f));
 }
 
@@ -27,37 +39,40 @@ static double frame_error(const struct flicker_film *f, int t)
 {
     double mean = 0.0, sum = 0.0;
     for (size_t i = 0; i < numbers(f); i++)
-        mean += (double)f->reference[t][i] / (double)numbers(f);
+        mean += truth(f, t, i) / (double)numbers(f);
     for (size_t i = 0; i < numbers(f); i++) {
-        double r = (double)f->reference[t][i];
-        double d = (double)f->frame[t][i] - r;
+        double r = truth(f, t, i), d = over(f, 0, t, i) * over(f, 1, t, i);
         if (d != 0.0)
-            sum += d * d / (r * r + 0.01 * mean * mean);
+            sum += d / (r * r + 0.01 * mean * mean);
     }
-    return sqrt(sum / (double)numbers(f));
+    return sum / (double)numbers(f);
 }
 
 /* ---- over time ---------------------------------------------------------- */
 
-/* Means of a number and of its difference, the difference's variance. */
+/* Mean of a number; variance of its difference from the truth. */
 struct course {
-    double reference, difference, variance;
+    double reference, variance;
 };
 
 static struct course course_of(const struct flicker_film *f, size_t i)
 {
     struct course c = {0};
+    double mean[2] = {0};
     for (int t = 0; t < f->frames; t++) {
-        c.reference += (double)f->reference[t][i] / f->frames;
-        c.difference += ((double)f->frame[t][i] - (double)f->reference[t][i]) /
-                        f->frames;
+        c.reference += truth(f, t, i) / f->frames;
+        for (int k = 0; k < 2; k++)
+            mean[k] += over(f, k, t, i) / f->frames;
     }
-    for (int t = 0; t < f->frames; t++) {
-        double d = (double)f->frame[t][i] - (double)f->reference[t][i] -
-                   c.difference;
-        c.variance += d * d / (f->frames - 1);
-    }
+    for (int t = 0; t < f->frames; t++)
+        c.variance += (over(f, 0, t, i) - mean[0]) *
+                      (over(f, 1, t, i) - mean[1]) / (f->frames - 1);
     return c;
+}
+
+static double root(double x)
+{
+    return x > 0.0 ? sqrt(x) : 0.0;
 }
 
 static double deviation(const struct flicker_film *f, double mean)
@@ -67,10 +82,10 @@ static double deviation(const struct flicker_film *f, double mean)
         struct course c = course_of(f, i);
         if (!(c.reference > LIT * mean))
             continue;
-        sum += sqrt(c.variance) / c.reference;
+        sum += c.variance / (c.reference * c.reference + 0.01 * mean * mean);
         count += 1.0;
     }
-    return count > 0.0 ? sum / count : 0.0;
+    return count > 0.0 ? root(sum / count) : 0.0;
 }
 
 static double change(const float *const *film, int t, size_t i)
@@ -86,17 +101,24 @@ static void find_changes(const struct flicker_film *f, struct flicker *out)
     double wrong = 0.0, along = 0.0, all = 0.0, square = 0.0;
     for (int t = 0; t < f->frames; t++)
         for (size_t i = 0; i < numbers(f); i++) {
-            double r = (double)f->reference[t][i];
+            double r = truth(f, t, i);
             square += r * r / f->frames;
             if (t == 0)
                 continue;
-            double x = change(f->frame, t, i), y = change(f->reference, t, i);
-            wrong += (x - y) * (x - y) / (f->frames - 1);
-            along += x * y;
-            all += y * y;
+            double x = change(f->frame, t, i);
+            double y = change(f->reference[0], t, i);
+            double z = change(f->reference[1], t, i);
+            wrong += (x - y) * (x - z) / (f->frames - 1);
+            along += 0.5 * x * (y + z);
+            all += y * z;
         }
     out->difference = square > 0.0 ? wrong / square : 0.0;
     out->motion = all > 0.0 ? along / all : (double)NAN;
+}
+
+static double step(const float *const *film, int t, size_t from, size_t to)
+{
+    return (double)film[t][to] - (double)film[t][from];
 }
 
 static void find_detail(const struct flicker_film *f, struct flicker *out)
@@ -108,12 +130,11 @@ static void find_detail(const struct flicker_film *f, struct flicker *out)
             size_t beside[2] = {i % row + 3 < row ? i + 3 : i,
                                 i + row < numbers(f) ? i + row : i};
             for (int k = 0; k < 2; k++) {
-                double x = (double)f->frame[t][beside[k]] -
-                           (double)f->frame[t][i];
-                double y = (double)f->reference[t][beside[k]] -
-                           (double)f->reference[t][i];
-                along += x * y;
-                all += y * y;
+                double x = step(f->frame, t, i, beside[k]);
+                double y = step(f->reference[0], t, i, beside[k]);
+                double z = step(f->reference[1], t, i, beside[k]);
+                along += 0.5 * x * (y + z);
+                all += y * z;
             }
         }
     out->detail = all > 0.0 ? along / all : (double)NAN;
@@ -125,14 +146,16 @@ static void find_detail(const struct flicker_film *f, struct flicker *out)
 static double power_at(const struct flicker_film *f, size_t i, int k,
                        const double *cosine, const double *sine)
 {
-    double re = 0.0, im = 0.0;
+    double re[2] = {0}, im[2] = {0};
     for (int t = 0; t < f->frames; t++) {
-        double d = (double)f->frame[t][i] - (double)f->reference[t][i];
         int turn = (int)((long)k * t % f->frames);
-        re += d * cosine[turn];
-        im += d * sine[turn];
+        for (int j = 0; j < 2; j++) {
+            double d = over(f, j, t, i);
+            re[j] += d * cosine[turn];
+            im[j] += d * sine[turn];
+        }
     }
-    return re * re + im * im;
+    return re[0] * re[1] + im[0] * im[1];
 }
 
 static bool find_band(const struct flicker_film *f, struct flicker *out,

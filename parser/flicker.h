@@ -9,14 +9,18 @@
 
 struct flicker_film {
     int width, height, frames;
-    const float *const *frame, *const *reference;
+    const float *const *frame;
+    /* Twice, with noise of their own: of what is multiplied one factor has the
+     * one, one the other, so that none of their noise counts. */
+    const float *const *reference[2];
 };
 
 struct flicker {
-    double error;               /* relRMSE of single frames, their mean    */
+    double error;               /* relMSE of single frames, their mean     */
     double deviation;           /* temporal, of a pixel's difference from
-                                   the reference, over the reference's mean:
-                                   averaged over pixels that are lit        */
+                                   the reference, over the reference's mean
+                                   (at least a tenth of the picture's): RMS
+                                   over pixels that are lit                 */
     double difference;          /* energy of frame-to-frame differences less
                                    the reference's, over its mean square   */
     double band;                /* part of the temporal variance at 5 to 15

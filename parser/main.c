@@ -209,6 +209,9 @@ static void check_measure(const struct options *o, struct diag *diag)
     if (measure && ((o->spp && !temporal) || o->error > 0 || o->seconds > 0))
         diag_error(diag, BRUME_ERR_USAGE,
                    "'brume measure' tries --spp, --error and --time itself");
+    if (!temporal && o->more_photons[0] > 0)
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "several --photons are for 'brume measure --temporal'");
     if (measure && o->output && strcmp(o->output, "-") == 0)
         diag_error(diag, BRUME_ERR_USAGE,
                    "'brume measure' writes files; name them by +O");

@@ -82,7 +82,8 @@ bool setting_warn(const struct setting *setting, const char *format, ...)
 /* The handlers. A `flag` takes no value as a switch or a long option and on or
  * off in an INI file; a `flag_number` may have one as a switch. */
 option_set set_flag, set_flag_number, set_display, set_dither;
-option_set set_integer, set_number, set_unsigned, set_bytes;
+option_set set_integer, set_number, set_unsigned, set_photons,
+           set_bytes;
 option_set set_text, set_folder, set_word, set_known_word;
 option_set set_input, set_output_file, set_file_type, set_declare, set_clock;
 option_set set_quality, set_file_gamma, set_stream, set_console,

@@ -125,6 +125,32 @@ bool set_unsigned(struct setting *s)
     return true;
 }
 
+/* Several are for measuring. */
+bool set_photons(struct setting *s)
+{
+    struct options *o = s->options;
+    const char *text = s->value;
+    memset(o->more_photons, 0, sizeof o->more_photons);
+    for (int i = 0; i < OPTIONS_MOST_PHOTONS; i++) {
+        uint64_t *to = i == 0 ? &o->photons : &o->more_photons[i - 1];
+        char *end;
+        errno = 0;
+        unsigned long long number = strtoull(text, &end, 10);
+        if (*text < '0' || *text > '9' || errno || (i > 0 && number == 0))
+            break;
+        *to = number;
+        if (*end == '\0')
+            return true;
+        text = end + 1;
+        if (*end != ',')
+            break;
+    }
+    return setting_error(s,
+                         "'%s' is neither a whole number from 0 to 2^64 - 1, "
+                         "nor up to %d of them with commas",
+                         s->value, OPTIONS_MOST_PHOTONS);
+}
+
 bool set_bytes(struct setting *s)
 {
     static const char units[] = "KMGT";

@@ -45,6 +45,9 @@ struct options_list {       /* of texts, in the order they were given      */
 };
 
 /* Texts lie in the arena. */
+/* Numbers of photons that 'brume measure --temporal' takes. */
+enum { OPTIONS_MOST_PHOTONS = 8 };
+
 struct options {
     struct arena arena;
     enum options_action action;
@@ -93,6 +96,7 @@ struct options {
     int threads;
     int gpus;                   /* -1: all; 0: all, if there are any       */
     uint64_t seed, memory, photons;
+    uint64_t more_photons[OPTIONS_MOST_PHOTONS - 1];    /* up to a 0       */
     double field_spacing;
     /* Of reading a scene; 0: the default of struct parse_limits. */
     int include_depth, macro_depth;

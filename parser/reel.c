@@ -311,8 +311,9 @@ static bool measure(struct reel *reel, const struct parse_result *scene,
 static enum brume_code measure_temporal(struct reel *reel)
 {
     struct brume_error err = {0};
-    struct measure_temporal m = {.spp = reel->options->spp,
-                                 .photons = reel->options->photons};
+    const struct options *o = reel->options;
+    struct measure_temporal m = {.spp = o->spp, .photons = {o->photons}};
+    memcpy(m.photons + 1, o->more_photons, sizeof o->more_photons);
     bool named = !reel->options->to_file ||
                  (m.csv_path = naming_beside(reel->options, ".flicker.csv",
                                              &reel->arena));

@@ -17,8 +17,8 @@ column()
 {
     awk -F, -v name="$1" -v row="\"$2\"" '
         NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i }
-        { gsub(/"adaptive,4"/, "\"four\"") }
-        $1 == row { print $c }' still.flicker.csv
+        $2 == row && $1 == photons { print $c }' "photons=${3-1000}" \
+        still.flicker.csv
 }
 
 # less A B
@@ -32,7 +32,7 @@ brume measure --temporal still.pov +W12 +H12 --spp 4 +KFF8 --backend cpu
 exits 0
 prints '8 frames, 4 samples a pixel'
 has still.flicker.csv
-is "$(wc -l <still.flicker.csv)" 6
+is "$(wc -l <still.flicker.csv)" 5
 less "$(column flicker 3)" "$(column flicker 1)"
 less "$(column flicker adaptive)" "$(column flicker 3)"
 less "$(column difference 5)" "$(column difference 1)"
@@ -42,7 +42,24 @@ is "$(column ring_bytes 1)" 0
 less "$(column ring_bytes 3)" "$(column ring_bytes 5)"
 lacks still1.png still.frames.jsonl
 
+new_case 'several numbers of photons, and a velocity'
+sed 's/absorption 0.1/& velocity { x }/' still.pov >moved.pov
+mv moved.pov still.pov
+brume measure --temporal still.pov +W12 +H12 --spp 64 +KFF4 --backend cpu \
+    --photons 300,4000
+exits 0
+is "$(wc -l <still.flicker.csv)" 11
+prints 'in place'
+less "$(column flicker 1 4000)" "$(column flicker 1 300)"
+less "$(column error adaptive 4000)" "$(column error adaptive 300)"
+
 new_case 'what it cannot do'
+brume still.pov --photons 5,6
+exits 2
+says "several --photons are for 'brume measure --temporal'"
+brume measure --temporal still.pov +KFF4 --photons 5,0
+exits 2
+says 'nor up to 8 of them'
 brume measure --temporal still.pov
 exits 2
 says 'needs an animation'

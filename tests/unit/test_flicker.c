@@ -34,7 +34,8 @@ static struct flicker measure(int frames)
         frame[t] = film[t];
         reference[t] = truth[t];
     }
-    struct flicker_film f = {WIDTH, HEIGHT, frames, frame, reference};
+    struct flicker_film f = {
+        WIDTH, HEIGHT, frames, frame, {reference, reference}};
     assert_true(flicker_find(&f, &out, &err));
     return out;
 }
@@ -57,7 +58,7 @@ static void flicker__noise(void **state)
             film[t][i] = truth[t][i] * (float)(1.0 + 0.1 * noise());
     struct flicker f = measure(FRAMES);
     assert_float_equal(f.deviation, 0.1, 0.002);
-    assert_float_equal(f.error, 0.1, 0.004);
+    assert_float_equal(f.error, 0.01, 0.0008);
     /* Differences have twice the variance, here of a hundredth. */
     assert_float_equal(f.difference, 0.02, 0.0006);
     assert_float_equal(f.detail, 1.0, 0.02);
@@ -104,6 +105,37 @@ static void flicker__blur_is_no_gain(void **state)
     assert_true(isnan(measure(23).band));
 }
 
+/* Nor does noise of the references, where each has its own. */
+static void flicker__references_may_be_noisy(void **state)
+{
+    (void)state;
+    static float noisy[2][FRAMES][SIZE];
+    const float *frame[FRAMES], *reference[2][FRAMES];
+    struct brume_error err = {0};
+    struct flicker out;
+    make_truth(1.0);
+    for (int t = 0; t < FRAMES; t++) {
+        frame[t] = film[t];
+        for (int i = 0; i < SIZE; i++)
+            film[t][i] = truth[t][i] * (float)(1.0 + 0.1 * noise());
+        for (int k = 0; k < 2; k++) {
+            reference[k][t] = noisy[k][t];
+            for (int i = 0; i < SIZE; i++)
+                noisy[k][t][i] = truth[t][i] * (float)(1.0 + 0.1 * noise());
+        }
+    }
+    struct flicker_film f = {
+        WIDTH, HEIGHT, FRAMES, frame, {reference[0], reference[1]}};
+    assert_true(flicker_find(&f, &out, &err));
+    /* Over the mean, which squared is 4 of the mean square of 4.5. */
+    assert_float_equal(out.deviation, 0.1 * sqrt(1.125 / 1.01), 0.002);
+    assert_float_equal(out.error, 0.01, 0.0008);
+    assert_float_equal(out.difference, 0.02, 0.001);
+    assert_float_equal(out.detail, 1.0, 0.03);
+    assert_float_equal(out.motion, 1.0, 0.03);
+    assert_float_equal(out.band, 14.5 / 23.5, 0.03);
+}
+
 static void flicker__of_itself_is_none(void **state)
 {
     (void)state;
@@ -122,6 +154,7 @@ int main(void)
         cmocka_unit_test(flicker__noise),
         cmocka_unit_test(flicker__filters_have_their_variance),
         cmocka_unit_test(flicker__blur_is_no_gain),
+        cmocka_unit_test(flicker__references_may_be_noisy),
         cmocka_unit_test(flicker__of_itself_is_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
