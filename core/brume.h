@@ -481,6 +481,12 @@ BRUME_API bool brume_plan_frame(brume_scene *scene,
                                 struct brume_plan *plan,
                                 struct brume_error *err);
 
+/* On a GPU, by its own clock. */
+struct brume_device_seconds {
+    double upload, trace, gather;   /* of the scene; of photons; the field */
+    double lines, paths;            /* straight lines, and what has noise  */
+};
+
 struct brume_stats {
     char backend[64];
     uint64_t paths, rays, shadow_rays, collisions, lookups;
@@ -491,6 +497,7 @@ struct brume_stats {
     int spp;
     double error;                   /* estimated relRMSE (DESIGN.md)       */
     double seconds_prepare, seconds_render;
+    struct brume_device_seconds device;     /* 0: no GPU                   */
     uint64_t bytes;
     /* Of large meshes of a film: trees that were built, and had from the frame
      * before. */

@@ -74,6 +74,23 @@ static bool has_clear(const struct flat *f)
     return false;
 }
 
+static bool is_gray(rgb c)
+{
+    return c.r == c.g && c.g == c.b;
+}
+
+/* Whether the channels fly differently through some medium. */
+static bool has_colors(const struct flat *f)
+{
+    for (size_t i = 0; i < f->media_count; i++) {
+        const flat_medium *m = &f->media[i];
+        if (m->functions || !is_gray(m->sigma_a) || !is_gray(m->sigma_s) ||
+            !is_gray(m->sigma_t) || !is_gray(m->bound))
+            return true;
+    }
+    return false;
+}
+
 static bool has_solids(const struct flat *f)
 {
     for (size_t i = 0; i < f->shapes_count; i++)
@@ -104,6 +121,8 @@ static int scene_needs(const struct flat *f)
            (f->sky_count > 0 ? MAY_SKY : 0) |
            (f->view.local_lights ? MAY_LAMPS : 0) |
            (f->kd_count > 0 ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
+           (has_colors(f) ? MAY_COLORS : 0) |
+           (f->view.field.ball ? MAY_BALLS : 0) |
            (has_clear(f) ? MAY_CLEAR : 0);
 }
 

@@ -199,6 +199,7 @@ static bool prepare_all(const struct prepare *job, const struct assembly *a,
         !prepare_shapes(job, a, err) || !prepare_grids(job, a, err) ||
         !prepare_media(job, err) || !prepare_glow(job, err))
         return false;
+    prepare_clear(job);
     prepare_reach(job, a);
     flat_view(f);
     if (!add_eye(f, err))

@@ -43,6 +43,8 @@ struct grid *prepare_bake(const struct prepare *job, const struct assembly *a,
                           int field, int component, struct brume_error *err);
 /* prepare_media.c: media, their majorant lattices, interiors. */
 bool prepare_media(const struct prepare *job, struct brume_error *err);
+/* prepare_clear.c: the cells of these that no boundary goes through. */
+void prepare_clear(const struct prepare *job);
 /* prepare_glow.c: the emitting voxels as lights, where light is followed. */
 bool prepare_glow(const struct prepare *job, struct brume_error *err);
 

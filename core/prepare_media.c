@@ -232,7 +232,7 @@ static majorant_cell cell_bound(const struct lattice *l, field_bound *bound,
                                 const double lo[3], const double hi[3])
 {
     const flat_medium *m = l->medium;
-    majorant_cell out = {1.0f, 0.0f};
+    majorant_cell out = {1.0f, 0.0f, 0};
     for (int i = 0; i < m->densities; i++)
         out.density *= bound(l, m->density[i], lo, hi);
     out.density = fminf(out.density, m->densest);

@@ -93,6 +93,17 @@ static bool put_photons(struct json *json, const struct brume_photon_stats *p)
     return json_put(json, "photons", out) && ok;
 }
 
+static bool put_device(struct json *json, const struct brume_device_seconds *d)
+{
+    struct json *out = json_new_object();
+    bool ok = json_put_number(out, "upload", d->upload) &&
+              json_put_number(out, "trace", d->trace) &&
+              json_put_number(out, "gather", d->gather) &&
+              json_put_number(out, "lines", d->lines) &&
+              json_put_number(out, "paths", d->paths);
+    return json_put(json, "device_seconds", out) && ok;
+}
+
 static struct json *frame_json(const struct reel_record *r)
 {
     struct json *json = json_new_object();
@@ -101,6 +112,8 @@ static struct json *frame_json(const struct reel_record *r)
               (!r->picture || json_put_text(json, "picture", r->picture)) &&
               put_counts(json, &r->stats) && put_seconds(json, r) &&
               put_parsed(json, &r->parsed) &&
+              (r->stats.device.upload <= 0.0 ||
+               put_device(json, &r->stats.device)) &&
               (r->stats.photons.traced == 0 ||
                put_photons(json, &r->stats.photons));
     if (ok)

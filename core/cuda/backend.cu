@@ -17,8 +17,8 @@ const uint32_t samples_per_launch = 8;
 const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
                                        &sample_all};
 
-const photon_stage *const photon_kernels[] = {&photons_media, &photons_lit,
-                                              &photons_fire, &photons_all};
+const photon_stage *const photon_kernels[] = {
+    &photons_media, &photons_colors, &photons_lit, &photons_fire, &photons_all};
 
 bool cuda_available(char *why, size_t size)
 {
@@ -45,8 +45,10 @@ void cuda_use(int device)
 void cuda_close(void *state)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
-    if (s)
+    if (s) {
         device_arena_free(&s->arena);
+        device_clock_free(&s->clock);
+    }
     delete s;
 }
 
@@ -93,6 +95,7 @@ bool upload(cuda_state *s, brume_error *err)
     bool good = true;
     s->job.scene = *from;
     resident_begin(s->kept);
+    device_clock_mark(&s->clock, 0);
 #define X(type, name)                                                          \
     if (good) {                                                                \
         const void *to = upload_array(s, from->name,                           \
@@ -105,7 +108,8 @@ bool upload(cuda_state *s, brume_error *err)
 #undef X
     resident_end(s->kept);
     s->cells = const_cast<float *>(s->job.scene.radiance);
-    return good;
+    return good && device_clock_stop(&s->clock, 1, "the upload", err) &&
+           device_clock_add(&s->clock, 0, &s->spent.upload);
 }
 
 bool start_film(cuda_state *s, brume_error *err)
@@ -137,6 +141,22 @@ void describe_job(sample_job *job, const backend_frame *frame)
     job->y1 = f->y1;
 }
 
+/* What is asked of the device, and its clock. */
+bool open_device(cuda_state *s, brume_error *err)
+{
+    int bytes = 0;
+    if (!device_clock_new(&s->clock, err) ||
+        !device_number(cudaDevAttrMultiProcessorCount, &s->processors, err) ||
+        !device_number(cudaDevAttrMaxSharedMemoryPerBlockOptin, &bytes, err))
+        return false;
+    s->trace_threads = most_trace_threads;
+    while (s->trace_threads > 32 &&
+           static_cast<size_t>(s->trace_threads / 32) * s->tracer->warp_bytes >
+               static_cast<size_t>(bytes))
+        s->trace_threads /= 2;
+    return true;
+}
+
 void *cuda_open(const backend_frame *frame, brume_error *err)
 {
     cuda_state *s = new (std::nothrow) cuda_state();
@@ -148,12 +168,25 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs);
     s->photons = choose(photon_kernels, frame->stages->needs);
+    s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
     describe_job(&s->job, frame);
-    if (device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
+    if (open_device(s, err) &&
+        device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         start_film(s, err) && photons_open(s, err))
         return s;
     cuda_close(s);
     return nullptr;
+}
+
+/* Hands over the times since this was done last. */
+void give_times(cuda_state *s, brume_device_seconds *out)
+{
+    out->upload += s->spent.upload;
+    out->trace += s->spent.trace;
+    out->gather += s->spent.gather;
+    out->lines += s->spent.lines;
+    out->paths += s->spent.paths;
+    s->spent = {};
 }
 
 bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
@@ -164,7 +197,23 @@ bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
             "reading the counters", err))
         return false;
     cuda_add_track(&c, out);
+    give_times(s, &out->device);
     return true;
+}
+
+/* The samples that the job asks for. */
+bool sample_some(cuda_state *s, brume_error *err)
+{
+    bool path = s->job.pixels.path != 0;
+    device_clock_mark(&s->clock, 0);
+    s->stage->lines(&s->job);
+    device_clock_mark(&s->clock, 1);
+    if (path)
+        s->stage->paths(&s->job);
+    return device_check(cudaGetLastError(), "launching the path stage", err) &&
+           device_clock_stop(&s->clock, 2, "the path stage", err) &&
+           device_clock_add(&s->clock, 0, &s->spent.lines) &&
+           device_clock_add(&s->clock, 1, &s->spent.paths);
 }
 
 bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
@@ -183,15 +232,14 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
                                                        : samples_per_launch;
         s->job.first = f->samples + done;
         s->job.samples = n;
-        s->stage->launch(&s->job);
-        if (!device_check(cudaGetLastError(), "launching the path stage",
-                          err) ||
-            !device_check(cudaDeviceSynchronize(), "the path stage", err))
+        if (!sample_some(s, err))
             return false;
         done += n;
         if (!s->frame.tick(s->frame.user, static_cast<double>(done) / count))
             return true;
     }
+    if (!s->job.pixels.path)
+        stats->paths += film_pixels(f) * count;
     return device_check(cudaMemcpy(f->pixel, s->job.pixel,
                                    film_pixels(f) * sizeof(film_pixel),
                                    cudaMemcpyDeviceToHost),

@@ -13,13 +13,16 @@ struct cuda_state {
     sample_job job;             /* its scene's pointers are the device's   */
     const sample_stage *stage;
     const photon_stage *photons;
+    const photon_stage *tracer;     /* of photons that are born            */
     float *cells;               /* of the field                            */
     int64_t *sum;               /* of its cells; NULL without photons      */
     photon_source *source;
     photon_totals *total;
-    void *list;                 /* of photons that are born                */
-    unsigned *taken;            /* of them                                 */
-    unsigned trace_warps;       /* as many as run at once                  */
+    void *list[2];              /* of photons that wait                    */
+    photon_queue *queue;
+    int processors, trace_threads;
+    device_clock clock;
+    brume_device_seconds spent; /* since the last sample                   */
 };
 
 /* photons.cu */

@@ -13,6 +13,50 @@ bool device_check(cudaError_t code, const char *stage, struct brume_error *err)
         "the GPU failed in %s: %s", stage, cudaGetErrorString(code));
 }
 
+bool device_number(cudaDeviceAttr what, int *value, struct brume_error *err)
+{
+    int device = 0;
+    return device_check(cudaGetDevice(&device), "opening", err) &&
+           device_check(cudaDeviceGetAttribute(value, what, device), "opening",
+                        err);
+}
+
+bool device_clock_new(struct device_clock *clock, struct brume_error *err)
+{
+    for (int i = 0; i < DEVICE_MARKS; i++)
+        if (!device_check(cudaEventCreate(&clock->event[i]), "opening", err))
+            return false;
+    return true;
+}
+
+void device_clock_free(struct device_clock *clock)
+{
+    for (int i = 0; i < DEVICE_MARKS; i++)
+        if (clock->event[i])
+            cudaEventDestroy(clock->event[i]);
+}
+
+void device_clock_mark(struct device_clock *clock, int i)
+{
+    cudaEventRecord(clock->event[i]);
+}
+
+bool device_clock_stop(struct device_clock *clock, int i, const char *stage,
+                       struct brume_error *err)
+{
+    return device_check(cudaEventRecord(clock->event[i]), stage, err) &&
+           device_check(cudaDeviceSynchronize(), stage, err);
+}
+
+bool device_clock_add(struct device_clock *clock, int i, double *sum)
+{
+    float milliseconds = 0.0f;
+    if (cudaEventElapsedTime(&milliseconds, clock->event[i],
+                             clock->event[i + 1]) == cudaSuccess)
+        *sum += static_cast<double>(milliseconds) * 1e-3;
+    return true;
+}
+
 size_t device_round(size_t bytes)
 {
     return (bytes + alignment - 1) / alignment * alignment;

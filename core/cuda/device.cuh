@@ -16,6 +16,26 @@ struct device_arena {
     size_t size, used;
 };
 
+/* A number that the runtime tells of the device. */
+bool device_number(cudaDeviceAttr what, int *value, struct brume_error *err);
+
+/* Times on the device, by its own clock. */
+enum { DEVICE_MARKS = 3 };
+
+struct device_clock {
+    cudaEvent_t event[DEVICE_MARKS];
+};
+
+bool device_clock_new(struct device_clock *clock, struct brume_error *err);
+void device_clock_free(struct device_clock *clock);
+/* Now is mark i. */
+void device_clock_mark(struct device_clock *clock, int i);
+/* The same, and waits for what came before, a stage. */
+bool device_clock_stop(struct device_clock *clock, int i, const char *stage,
+                       struct brume_error *err);
+/* Adds the seconds from mark i to the next one; returns true. */
+bool device_clock_add(struct device_clock *clock, int i, double *sum);
+
 size_t device_round(size_t bytes);
 bool device_arena_new(struct device_arena *arena, size_t size,
                       struct brume_error *err);

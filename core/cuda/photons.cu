@@ -11,10 +11,7 @@ namespace
 
 /* Photons of a launch, at most: many for each thread, few enough for a stop to
  * be heard soon, and for the memory. */
-const uint64_t most_photons = 1u << 20;
-
-/* Warps of a multiprocessor that trace. */
-const int warps_each = 16;
+const uint64_t most_photons = 1u << 19;
 
 const int block_size = 256;
 
@@ -23,10 +20,29 @@ uint64_t most_sources(const backend_frame *frame)
     return frame->flat->view.lights_count + 3;
 }
 
-uint64_t list_photons(const backend_frame *frame)
+uint64_t born_at_once(const backend_frame *frame)
 {
     uint64_t count = photons_asked(frame->options);
     return count < most_photons ? count : most_photons;
+}
+
+/* As many as run at once, or have photons. */
+unsigned trace_blocks(const cuda_state *s)
+{
+    uint64_t threads = static_cast<uint64_t>(s->trace_threads);
+    uint64_t needed = (born_at_once(&s->frame) + threads - 1) / threads;
+    uint64_t most = static_cast<uint64_t>(s->processors) *
+                    (most_trace_threads / threads);
+    return static_cast<unsigned>(needed < most ? needed : most);
+}
+
+/* Bytes of a list of photons. */
+size_t list_bytes(const cuda_state *s)
+{
+    uint64_t photons = born_at_once(&s->frame) +
+                       trace_blocks(s) *
+                           static_cast<uint64_t>(s->trace_threads);
+    return device_round(photons * s->photons->state_bytes);
 }
 
 double book_of(unsigned long long sum)
@@ -53,13 +69,16 @@ bool read_totals(cuda_state *s, brume_stats *out, brume_error *err)
     return true;
 }
 
-bool launch(const cuda_state *s, const trace_job *job, brume_error *err)
+bool launch(cuda_state *s, const trace_job *job, brume_error *err)
 {
-    unsigned needed = (job->born + warp_size - 1) / warp_size;
+    device_clock_mark(&s->clock, 0);
     s->photons->bear(job);
-    s->photons->trace(job, needed < s->trace_warps ? needed : s->trace_warps);
-    return device_check(cudaGetLastError(), "launching the trace stage", err) &&
-           device_check(cudaDeviceSynchronize(), "the trace stage", err);
+    return device_check(cudaGetLastError(), "launching births", err) &&
+           device_check(
+               s->tracer->trace(job, trace_blocks(s), s->trace_threads),
+               "launching the trace stage", err) &&
+           device_clock_stop(&s->clock, 1, "the trace stage", err) &&
+           device_clock_add(&s->clock, 0, &s->spent.trace);
 }
 
 bool start(cuda_state *s, const photon_job *job, trace_job *out,
@@ -68,14 +87,18 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
     out->scene = s->job.scene;
     out->photons = *job;
     out->photons.source = s->source;
-    out->list = s->list;
-    out->taken = s->taken;
+    out->list[0] = s->list[0];
+    out->list[1] = s->list[1];
+    out->queue = s->queue;
+    out->turn = 0;
     out->sum = s->sum;
     out->total = s->total;
     size_t bytes = static_cast<size_t>(job->sources) * sizeof *s->source;
     return device_check(cudaMemcpy(s->source, job->source, bytes,
                                    cudaMemcpyHostToDevice),
                         "uploading the sources", err) &&
+           device_check(cudaMemset(s->queue, 0, sizeof *s->queue),
+                        "clearing the counters", err) &&
            device_check(cudaMemset(s->total, 0, sizeof *s->total),
                         "clearing the counters", err);
 }
@@ -98,9 +121,8 @@ size_t photons_bytes(const cuda_state *s)
         return 0;
     return device_round(radiance_sum_bytes(frame->flat)) +
            device_round(most_sources(frame) * sizeof(photon_source)) +
-           device_round(sizeof(photon_totals)) +
-           device_round(list_photons(frame) * s->photons->state_bytes) +
-           device_round(sizeof(unsigned));
+           device_round(sizeof(photon_totals)) + 2 * list_bytes(s) +
+           device_round(sizeof(photon_queue));
 }
 
 bool photons_open(cuda_state *s, brume_error *err)
@@ -108,20 +130,14 @@ bool photons_open(cuda_state *s, brume_error *err)
     if (!s->frame.stages->photons)
         return true;
     size_t bytes = radiance_sum_bytes(s->frame.flat);
-    int device = 0, processors = 0;
-    if (!device_check(cudaGetDevice(&device), "the trace stage", err) ||
-        !device_check(cudaDeviceGetAttribute(
-                          &processors, cudaDevAttrMultiProcessorCount, device),
-                      "the trace stage", err))
-        return false;
-    s->trace_warps = static_cast<unsigned>(processors * warps_each);
     device_arena *a = &s->arena;
     s->sum = static_cast<int64_t *>(device_take(a, bytes));
     s->source = static_cast<photon_source *>(
         device_take(a, most_sources(&s->frame) * sizeof *s->source));
     s->total = static_cast<photon_totals *>(device_take(a, sizeof *s->total));
-    s->list = device_take(a, list_photons(&s->frame) * s->photons->state_bytes);
-    s->taken = static_cast<unsigned *>(device_take(a, sizeof *s->taken));
+    s->list[0] = device_take(a, list_bytes(s));
+    s->list[1] = device_take(a, list_bytes(s));
+    s->queue = static_cast<photon_queue *>(device_take(a, sizeof *s->queue));
     return device_check(cudaMemset(s->sum, 0, bytes), "clearing the field",
                         err);
 }
@@ -133,12 +149,14 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
     trace_job t;
     if (!start(s, job, &t, err))
         return false;
-    uint64_t most = list_photons(&s->frame);
+    uint64_t most = born_at_once(&s->frame);
     for (t.first = 0; t.first < job->count; t.first += t.born) {
         uint64_t left = job->count - t.first;
         t.born = static_cast<unsigned>(left < most ? left : most);
+        t.last = left == t.born;
         if (!launch(s, &t, err))
             return false;
+        t.turn = !t.turn;
         double done = static_cast<double>(t.first + t.born);
         if (!s->frame.tick(s->frame.user,
                            done / static_cast<double>(job->count)))
@@ -157,6 +175,7 @@ bool cuda_gather(void *state, double unit, brume_error *err)
                     s->cells};
     if (count == 0)
         return true;
+    device_clock_mark(&s->clock, 0);
     if (unit > 0.0)
         resolve<<<static_cast<unsigned>(blocks), block_size>>>(
             s->sum, s->cells, count, radiance_scale(f, unit));
@@ -166,7 +185,8 @@ bool cuda_gather(void *state, double unit, brume_error *err)
         s->photons->light(&job);
     return device_check(cudaGetLastError(), "launching the gather stage",
                         err) &&
-           device_check(cudaDeviceSynchronize(), "the gather stage", err);
+           device_clock_stop(&s->clock, 1, "the gather stage", err) &&
+           device_clock_add(&s->clock, 0, &s->spent.gather);
 }
 
 bool cuda_take(void *state, float *cells, brume_error *err)

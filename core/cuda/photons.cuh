@@ -6,6 +6,10 @@
 #include "core/cuda/sample.cuh"
 #include "core/physics/photon.h"
 
+/* Threads of a block that traces, at most: a multiprocessor has room for one.
+ * Fewer where its memory is small. */
+const int most_trace_threads = 512;
+
 /* Sums of photon_counters; of books in parts of PHOTON_BOOK_ONE. */
 struct photon_totals {
     device_counters track;
@@ -15,15 +19,24 @@ struct photon_totals {
 #undef X
 };
 
-/* Photons from `first` on, as many as `born`. */
+/* Counts of the two lists of photons that wait. Launches take turns: one takes
+ * from a list, and leaves in the other what it does not see to the end. */
+struct photon_queue {
+    unsigned taken;         /* of this launch's list                       */
+    unsigned left[2];       /* in each list, of the launch before          */
+};
+
+/* Photons from `first` on, as many as `born`, and those that are left. */
 struct trace_job {
     flat_scene scene;       /* its pointers are the device's               */
     photon_job photons;
     uint64_t first;
     unsigned born;
-    void *list;             /* of photon_state, as the stage knows it: those
-                               that are born; black: to no avail           */
-    unsigned *taken;        /* of the list                                 */
+    void *list[2];          /* of photon_state, as the stage knows it;
+                               black: born to no avail                     */
+    photon_queue *queue;
+    int turn;               /* whose list is taken from                    */
+    int last;               /* 1: nothing is to be left                    */
     int64_t *sum;           /* of the field's cells                        */
     photon_totals *total;
 };
@@ -39,12 +52,16 @@ struct cell_job {
 struct photon_stage {
     int may;                /* MAY_* of the scenes that it can do          */
     size_t state_bytes;     /* of a photon_state                           */
+    size_t warp_bytes;      /* of a warp's memory that it shares           */
     void (*bear)(const trace_job *job);
-    void (*trace)(const trace_job *job, unsigned warps);
+    cudaError_t (*trace)(const trace_job *job, unsigned blocks, int threads);
     void (*balls)(const cell_job *job);
     void (*light)(const cell_job *job);
 };
 
-extern const photon_stage photons_media, photons_lit, photons_fire,
-    photons_all;
+/* Once photons are born, these are no matter. */
+enum { TRACE_IGNORES = MAY_EMISSION | MAY_SKY | MAY_LAMPS };
+
+extern const photon_stage photons_media, photons_colors, photons_lit,
+    photons_fire, photons_all;
 #endif

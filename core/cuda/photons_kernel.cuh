@@ -1,76 +1,204 @@
 /* photons_kernel.cuh - the kernels of the integrator photon. PHOTON_STAGE names
  * what is defined here, SCENE_MAY what it can do.
  *
- * Photons are born by a kernel of its own, and wait in a list. Warps that stay
- * take them from there: what a thread has to do next is its phase, and the warp
- * does what most of its threads wait for. Who takes which photon depends on
- * time; all sums are of whole numbers, so that none shows it. */
+ * Photons are born by a kernel of its own, and wait in a list, from which
+ * threads that stay take them. All threads of a multiprocessor go round
+ * together, from the end of a flight through the next one: so each instruction
+ * that is fetched is used by many. Long ways are cut short where few threads
+ * are left on them, which go on in the next round. Where the list ends before
+ * the last launch, photons are left to the next one, as some live a thousand
+ * times as long as most. Who takes which photon depends on time; all sums are
+ * of whole numbers, so that none shows it. */
 #include "core/cuda/count.cuh"
-#include "core/cuda/phase.cuh"
 #include "core/cuda/photons.cuh"
 #include "core/physics/lit_cell.h"
 
 namespace
 {
 
-/* Warps that a multiprocessor must have room for: 128 registers a thread. */
-const int warps_at_once = 16;
 const int births_at_once = 128;
-enum phase {
-    PHASE_EVENT,            /* at a flight's end, or without a photon      */
-    PHASE_TRACK,
-    PHASE_LAY,
-    PHASES                  /* no photon is left                           */
-};
+
+/* Steps of a flight in a round, at most; threads of a warp for which one more
+ * is made, for which surfaces are sought, and for which a cell more is laid. */
+const int most_steps = 16, step_threads = 4;
+const int seek_threads = 4, lay_threads = 24;
+
+/* What is next of a thread's photon, beside photon_next: to get one, and that
+ * there is none left. */
+enum { TRACER_TAKES = PHOTON_LAYS + 1, TRACER_ENDS };
 
 struct tracer {
     photon_state photon;
     photon_flight flight;
-    bool alive;
-    int phase;
+    int next;
 };
 
-__device__ __forceinline__ int flight_phase(const photon_flight *f)
+/* Stretches of flights that are to be laid wait in a ring that a warp's threads
+ * share: each lays one after the other, whosever photon it was. */
+const int ring_size = 2 * warp_size;
+
+struct stretch {
+    vec3 o, d;
+    float from, to;
+    rgb power;
+};
+
+struct warp_memory {
+    photon_counters count[warp_size];
+    stretch ring[ring_size];
+    stretch laid[warp_size];    /* of each thread                          */
+};
+
+struct layer {
+    radiance_walk walk;
+    bool busy;
+    int first, count;       /* of the ring; alike in all threads           */
+};
+
+__device__ __forceinline__ photon_state *photon_list(const trace_job *job,
+                                                     int turn)
 {
-    return f->lays ? PHASE_LAY : f->flies ? PHASE_TRACK : PHASE_EVENT;
+    return static_cast<photon_state *>(job->list[turn]);
 }
 
-/* Gives threads that wait for one the next photons of the list. All threads
- * of the warp are here. */
+/* Numbers in a count for those threads of a warp that ask; all are here. */
+__device__ __forceinline__ unsigned take_numbers(unsigned *count, bool asks)
+{
+    unsigned all = __ballot_sync(~0u, asks), first = 0;
+    int lane = threadIdx.x % warp_size;
+    if (lane == 0 && all != 0u)
+        first = atomicAdd(count, __popc(all));
+    return __shfl_sync(~0u, first, 0) +
+           __popc(all & ((1u << lane) - 1u));
+}
+
+/* Gives threads that wait for one the next photons of the list. */
 __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
                                              photon_counters *count)
 {
-    bool idle = t->phase == PHASE_EVENT && !t->alive;
-    unsigned all = __ballot_sync(~0u, idle);
-    unsigned first = 0;
-    if (all == 0u)
-        return;
-    if (threadIdx.x == 0)
-        first = atomicAdd(job->taken, __popc(all));
-    first = __shfl_sync(~0u, first, 0) +
-            __popc(all & ((1u << threadIdx.x) - 1u));
-    if (!idle)
-        return;
-    if (first >= job->born) {
-        t->phase = PHASES;
-        return;
+    bool idle = t->next == TRACER_TAKES;
+    unsigned i = take_numbers(&job->queue->taken, idle);
+    if (idle && i >= job->queue->left[job->turn] + job->born) {
+        t->next = TRACER_ENDS;
+    } else if (idle) {
+        t->photon = photon_list(job, job->turn)[i];
+        t->photon.path.count = &count->track;
+        t->photon.path.boost = 1.0f;
+        t->flight.event = PATH_THROUGH;
+        if (!rgb_is_black(t->photon.path.beta))
+            t->next = PHOTON_LANDS;
     }
-    t->photon = static_cast<const photon_state *>(job->list)[first];
-    t->photon.path.count = &count->track;
-    t->alive = !rgb_is_black(t->photon.path.beta);
+}
+
+/* Leaves photons between two flights to the next launch. */
+__device__ __forceinline__ void leave_photons(const trace_job *job, tracer *t)
+{
+    bool leaves = t->next == PHOTON_LANDS;
+    unsigned i = take_numbers(&job->queue->left[!job->turn], leaves);
+    if (leaves) {
+        photon_list(job, !job->turn)[i] = t->photon;
+        t->next = TRACER_ENDS;
+    }
 }
 
 /* What follows a flight, and the next one. */
-__device__ __forceinline__ void go_on(const trace_job *job, tracer *t,
-                                      photon_counters *count)
+__device__ __forceinline__ void land(const trace_job *job, tracer *t,
+                                     photon_counters *count)
 {
     const flat_scene *s = &job->scene;
-    if (t->phase == PHASE_EVENT && t->alive)
-        t->alive = photon_land(s, &t->photon, count, &t->flight);
+    if (t->next == PHOTON_LANDS &&
+        !photon_land(s, &t->photon, count, &t->flight))
+        t->next = TRACER_TAKES;
     take_photons(job, t, count);
-    if (t->phase == PHASE_EVENT && t->alive) {
+    if (!job->last && __any_sync(~0u, t->next == TRACER_ENDS))
+        leave_photons(job, t);
+    if (t->next == PHOTON_LANDS) {
         photon_take_off(s, &t->photon, count, &t->flight);
-        t->phase = flight_phase(&t->flight);
+        t->next = photon_next(&t->flight);
+    }
+}
+
+/* Few threads wait for others, unless all of them do. */
+__device__ __forceinline__ void seek(const trace_job *job, tracer *t)
+{
+    bool on = t->next == PHOTON_LOOKS;
+    unsigned rest = __ballot_sync(~0u, !on && t->next != TRACER_ENDS);
+    if (__popc(__ballot_sync(~0u, on)) < seek_threads && rest != 0u)
+        return;
+    if (on) {
+        photon_seek(&job->scene, &t->photon, &t->flight);
+        t->next = photon_next(&t->flight);
+    }
+}
+
+__device__ __forceinline__ bool goes_on(const tracer *t, int what, int step)
+{
+    unsigned on = __ballot_sync(~0u, t->next == what);
+    return __popc(on) >= (step == 0 ? 1 : step_threads);
+}
+
+__device__ __forceinline__ void track(const trace_job *job, tracer *t,
+                                      photon_counters *count)
+{
+    for (int i = 0; i < most_steps && goes_on(t, PHOTON_TRACKS, i); i++)
+        if (t->next == PHOTON_TRACKS) {
+            photon_track(&job->scene, &t->photon, count, &t->flight);
+            t->next = photon_next(&t->flight);
+        }
+}
+
+/* Puts a stretch that a thread has into the ring, in which is room. */
+__device__ __forceinline__ void put_stretches(warp_memory *m, layer *l,
+                                              tracer *t)
+{
+    bool has = t->next == PHOTON_LAYS;
+    unsigned all = __ballot_sync(~0u, has);
+    int i = l->first + l->count +
+            __popc(all & ((1u << threadIdx.x % warp_size) - 1u));
+    l->count += __popc(all);
+    if (has) {
+        const photon_flight *f = &t->flight;
+        m->ring[i % ring_size] = {t->photon.path.o, t->photon.path.d,
+                                  f->stretch.t, f->stretch.end, f->lays_power};
+        t->flight.lays = PHOTON_LAYS_NONE;
+        t->next = photon_next(&t->flight);
+    }
+    __syncwarp();
+}
+
+/* Gives threads that lay nothing the next stretches. */
+__device__ __forceinline__ void get_stretches(const flat_scene *s,
+                                              warp_memory *m, layer *l)
+{
+    int lane = threadIdx.x % warp_size;
+    unsigned idle = __ballot_sync(~0u, !l->busy);
+    int i = __popc(idle & ((1u << lane) - 1u)), n = __popc(idle);
+    if (!l->busy && i < l->count) {
+        stretch x = m->ring[(l->first + i) % ring_size];
+        m->laid[lane] = x;
+        l->busy = radiance_begin(s, x.o, x.d, x.from, x.to, &l->walk);
+    }
+    n = n < l->count ? n : l->count;
+    l->first = (l->first + n) % ring_size;
+    l->count -= n;
+    __syncwarp();
+}
+
+/* Lays cells while that many threads have one. */
+__device__ __forceinline__ void lay(const flat_scene *s, warp_memory *m,
+                                    layer *l, photon_counters *count,
+                                    int threads)
+{
+    const stretch *x = &m->laid[threadIdx.x % warp_size];
+    for (;;) {
+        if (l->count > 0)
+            get_stretches(s, m, l);
+        int busy = __popc(__ballot_sync(~0u, l->busy));
+        if (busy < threads && l->count == 0)
+            return;
+        if (l->busy)
+            l->busy = radiance_lay(s, &count->tally, &l->walk, x->o, x->d,
+                                   x->power);
     }
 }
 
@@ -96,38 +224,46 @@ bear_photons(const __grid_constant__ trace_job job)
     photon_counters count = {};
     count.tally.sum = job.sum;
     if (i == 0)
-        *job.taken = 0;
+        job.queue->taken = job.queue->left[!job.turn] = 0;
     if (i < job.born) {
         photon_state p;
         if (!photon_begin(&job.scene, &job.photons, job.first + i, &p, &count))
             p.path.beta = rgb_gray(0.0f);
-        static_cast<photon_state *>(job.list)[i] = p;
+        photon_list(&job, job.turn)[job.queue->left[job.turn] + i] = p;
     }
     write_counts(&job, &count);
 }
 
-__global__ void __launch_bounds__(warp_size, warps_at_once)
+__global__ void __launch_bounds__(most_trace_threads, 1)
 trace_photons(const __grid_constant__ trace_job job)
 {
-    __shared__ photon_counters counts[warp_size];
-    photon_counters *count = &counts[threadIdx.x];
+    extern __shared__ warp_memory memory[];
+    warp_memory *m = &memory[threadIdx.x / warp_size];
+    photon_counters *count = &m->count[threadIdx.x % warp_size];
+    const flat_scene *s = &job.scene;
     tracer t;
-    int phase;
+    layer l;
     *count = {};
     count->tally.sum = job.sum;
-    t.phase = PHASE_EVENT;
-    t.alive = false;
-    while ((phase = phase_busiest(t.phase, PHASES)) != PHASES) {
-        if (phase == PHASE_EVENT) {
-            go_on(&job, &t, count);
-        } else if (t.phase == phase) {
-            if (phase == PHASE_LAY)
-                photon_lay(&job.scene, &t.photon, count, &t.flight);
-            else
-                photon_track(&job.scene, &t.photon, count, &t.flight);
-            t.phase = flight_phase(&t.flight);
+    t.next = TRACER_TAKES;
+    l.busy = false;
+    l.first = l.count = 0;
+    while (__syncthreads_or(t.next != TRACER_ENDS)) {
+        land(&job, &t, count);
+        seek(&job, &t);
+        if (t.next == PHOTON_DEPARTS) {
+            photon_depart(s, &t.photon, count, &t.flight);
+            t.next = photon_next(&t.flight);
         }
+        track(&job, &t, count);
+        if (t.next == PHOTON_COLLIDES) {
+            photon_collide(s, &t.photon, count, &t.flight);
+            t.next = photon_next(&t.flight);
+        }
+        put_stretches(m, &l, &t);
+        lay(s, m, &l, count, lay_threads);
     }
+    lay(s, m, &l, count, 1);
     write_counts(&job, count);
 }
 
@@ -175,9 +311,17 @@ void bear(const trace_job *job)
                    births_at_once>>>(*job);
 }
 
-void trace(const trace_job *job, unsigned warps)
+cudaError_t trace(const trace_job *job, unsigned blocks, int threads)
 {
-    trace_photons<<<warps, warp_size>>>(*job);
+    size_t bytes = static_cast<size_t>(threads / warp_size) *
+                   sizeof(warp_memory);
+    cudaError_t code = cudaFuncSetAttribute(
+        trace_photons, cudaFuncAttributeMaxDynamicSharedMemorySize,
+        static_cast<int>(bytes));
+    if (code != cudaSuccess)
+        return code;
+    trace_photons<<<blocks, threads, bytes>>>(*job);
+    return cudaGetLastError();
 }
 
 void balls(const cell_job *job)
@@ -192,5 +336,6 @@ void light(const cell_job *job)
 
 }
 
-const photon_stage PHOTON_STAGE = {SCENE_MAY, sizeof(photon_state), bear,
-                                   trace, balls, light};
+const photon_stage PHOTON_STAGE = {
+    SCENE_MAY, sizeof(photon_state), sizeof(warp_memory),
+    bear, trace, balls, light};

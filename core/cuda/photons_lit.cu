@@ -1,4 +1,4 @@
-/* One medium among simple surfaces and meshes, with lamps. */
+/* One gray medium among simple surfaces and meshes, with lamps. */
 #define SCENE_MAY (MAY_MESHES | MAY_SURFACES | MAY_SKY | MAY_LAMPS | MAY_FIELD)
 #define HD_INLINE __forceinline__
 #define PHOTON_STAGE photons_lit

@@ -1,4 +1,4 @@
-/* One medium, lit from afar, and nothing else that is seen. */
+/* One gray medium, lit from afar, and nothing else that is seen. */
 #define SCENE_MAY (MAY_SKY | MAY_FIELD)
 #define HD_INLINE __forceinline__
 #define PHOTON_STAGE photons_media

@@ -24,7 +24,8 @@ struct sample_job {
 
 struct sample_stage {
     int may;                /* MAY_* of the scenes that it can do          */
-    void (*launch)(const sample_job *job);
+    void (*lines)(const sample_job *job);
+    void (*paths)(const sample_job *job);
 };
 
 extern const sample_stage sample_media, sample_lit, sample_fire, sample_all;

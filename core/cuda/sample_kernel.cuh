@@ -11,6 +11,9 @@ const int block_size = block_width * block_height;
 /* Blocks that a multiprocessor must have room for: 128 registers a thread. */
 const int blocks_at_once = 16;
 
+/* Tiles of a block of paths, one below the other. */
+const int path_tiles = 8;
+
 /* The pixel of a thread; false: it has none. */
 __device__ __forceinline__ bool find_pixel(const sample_job *job, int *x,
                                            int *y, size_t *at)
@@ -46,28 +49,50 @@ sample_lines(const __grid_constant__ sample_job job)
     add_counters(job.count, &count);
 }
 
-__global__ void __launch_bounds__(block_size, blocks_at_once)
+/* All warps of a block go from segment to segment together, so that they share
+ * the instructions that are fetched. */
+__global__ void __launch_bounds__(block_size *path_tiles,
+                                  blocks_at_once / path_tiles)
 sample_paths(const __grid_constant__ sample_job job)
 {
     int x, y;
     size_t at;
-    if (!find_pixel(&job, &x, &y, &at))
-        return;
+    bool more = find_pixel(&job, &x, &y, &at), alive = false;
     track_counters count = {};
-    pixel_paths_run(&job.scene, &job.pixels, x, y, job.first, job.samples,
-                    &job.pixel[at], &count);
+    path_state path;
+    uint32_t i = job.first;
+    while (__syncthreads_or(more)) {
+        if (more && !alive)
+            pixel_begin(&job.scene, &job.pixels, x, y, i++, &path, &count);
+        alive = more && single_segment(&job.scene, &path, &count);
+        if (more && !alive) {
+            pixel_end(&path, i - 1u, &job.pixel[at], &count);
+            more = i < job.first + job.samples;
+        }
+    }
     add_counters(job.count, &count);
 }
 
-void launch(const sample_job *job)
+/* Blocks of so many tiles. */
+dim3 find_blocks(const sample_job *job, int tiles)
 {
-    dim3 block(block_width, block_height);
-    dim3 grid((job->x1 - job->x0 + block_width - 1) / block_width,
-              (job->y1 - job->y0 + block_height - 1) / block_height);
-    sample_lines<<<grid, block>>>(*job);
-    sample_paths<<<grid, block>>>(*job);
+    int high = block_height * tiles;
+    return dim3((job->x1 - job->x0 + block_width - 1) / block_width,
+                (job->y1 - job->y0 + high - 1) / high);
+}
+
+void lines(const sample_job *job)
+{
+    sample_lines<<<find_blocks(job, 1), dim3(block_width, block_height)>>>(
+        *job);
+}
+
+void paths(const sample_job *job)
+{
+    sample_paths<<<find_blocks(job, path_tiles),
+                   dim3(block_width, block_height * path_tiles)>>>(*job);
 }
 
 }
 
-const sample_stage SAMPLE_STAGE = {SCENE_MAY, launch};
+const sample_stage SAMPLE_STAGE = {SCENE_MAY, lines, paths};

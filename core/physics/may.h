@@ -22,7 +22,9 @@ enum {
     MAY_CLEAR = 512,        /* media that do not scatter                   */
     MAY_FIELD = 1024,       /* a field of photons' light, read by lines    */
     MAY_KDTREE = 2048,
-    MAY_ALL = 4095
+    MAY_COLORS = 4096,      /* media in which the channels fly differently */
+    MAY_BALLS = 8192,       /* a field of balls                            */
+    MAY_ALL = 16383
 };
 
 #ifndef SCENE_MAY

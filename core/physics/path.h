@@ -341,7 +341,7 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
 /* Russian roulette on the throughput; false ends the path. */
 HD bool path_survives(path_state *p)
 {
-    float throughput = rgb_size(p->beta) / rgb_mean(p->r_u);
+    float throughput = rgb_size(p->beta) / rgb_mean(may_gray(p->r_u));
     if (!(throughput > 0.0f))
         return false;
     if (throughput >= 0.25f)

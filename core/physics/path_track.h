@@ -72,12 +72,14 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
         field_point at = lattice_point(s, walk_part(w, i), x, t);
-        rgb density = medium_density(s, m, &at);
+        rgb density = may_gray(medium_density(s, m, &at));
         p->count->lookups++;
-        out->sigma_s[part_place(i)] = rgb_mul(m->sigma_s, density);
+        out->sigma_s[part_place(i)] = rgb_mul(may_gray(m->sigma_s), density);
         out->all_s = rgb_add(out->all_s, out->sigma_s[part_place(i)]);
-        out->all_a = rgb_add(out->all_a, rgb_mul(m->sigma_a, density));
-        out->all_t = rgb_add(out->all_t, rgb_mul(m->sigma_t, density));
+        out->all_a = rgb_add(out->all_a,
+                             rgb_mul(may_gray(m->sigma_a), density));
+        out->all_t = rgb_add(out->all_t,
+                             rgb_mul(may_gray(m->sigma_t), density));
         if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
             m->uniform)
             continue;
@@ -102,7 +104,7 @@ HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
     for (int i = 0; i < walk_parts(w); i++) {
         const majorant_cell *b = &walk_part(w, i)->bound;
         const flat_medium *m = walk_medium(s, w, i);
-        sum = rgb_add(sum, rgb_scale(m->bound, b->density));
+        sum = rgb_add(sum, rgb_scale(may_gray(m->bound), b->density));
         if (scene_may(MAY_EMISSION) && emission && !m->uniform)
             sum = rgb_add(sum, rgb_gray(b->rate));
     }
@@ -166,7 +168,7 @@ HD int path_null(path_state *p, const path_point *at, rgb drawn, rgb majorant)
     float scale = 1.0f / driver;
     p->beta = rgb_mul(p->beta, rgb_scale(rgb_sub(majorant, at->all_t),
                                          scale));
-    p->r_u = rgb_mul(p->r_u, rgb_scale(chance, scale));
+    p->r_u = rgb_mul(may_gray(p->r_u), rgb_scale(chance, scale));
     return PATH_THROUGH;
 }
 
@@ -214,7 +216,7 @@ HD int path_collide(path_state *p, const media_walk *w,
         if (x < p->boost * sigma) {
             rgb ratio = rgb_scale(at->sigma_s[part_place(i)], 1.0f / sigma);
             p->beta = rgb_mul(p->beta, rgb_scale(ratio, 1.0f / p->boost));
-            p->r_u = rgb_mul(p->r_u, ratio);
+            p->r_u = rgb_mul(may_gray(p->r_u), ratio);
             *which = i;
             return PATH_SCATTERED;
         }

@@ -11,7 +11,7 @@
  * its ways lead to stands in one place, and waits until it is come to: there
  * are few instructions, and threads meet. */
 typedef struct {
-    ray_hit hit;            /* the next surface                            */
+    ray_hit hit;            /* the next surface, where it has been sought  */
     media_walk walk;
     rgb majorant;           /* of the current piece                        */
     float t, tau;           /* how far it is; depth left to the next
@@ -19,8 +19,10 @@ typedef struct {
     double power;           /* at its start, as the books tell it          */
     int32_t event;          /* PATH_*: how it ends                         */
     path_event at;
+    int32_t clear;          /* ... in a cell through which no surface goes */
+    int32_t seeks;          /* PHOTON_SEEKS_*                              */
+    int32_t departs;        /* its walk is to begin                        */
     int32_t flies;          /* it has not ended                            */
-    int32_t draws;          /* tau is to be drawn                          */
     int32_t collides;       /* it is at a tentative collision              */
     int32_t lays;           /* PHOTON_LAYS_*                               */
     radiance_walk stretch;
@@ -29,6 +31,10 @@ typedef struct {
 
 /* Whether a stretch of a flight is still to be laid. */
 enum { PHOTON_LAYS_NONE, PHOTON_LAYS_ALL, PHOTON_LAYS_REST };
+
+/* Whether the next surface is sought: not before the flight comes to a cell
+ * through which one may go. */
+enum { PHOTON_SEEKS_NOT_YET, PHOTON_SEEKS, PHOTON_HAS_SOUGHT };
 
 /* Lays a cell of the stretch. */
 HD void photon_lay(const flat_scene *s, const photon_state *p,
@@ -69,7 +75,7 @@ HD bool photon_gray(rgb c)
 HD void photon_fly(const flat_scene *s, photon_state *p, photon_counters *c,
                    photon_flight *f, float step)
 {
-    if (photon_gray(f->majorant))
+    if (photon_gray(may_gray(f->majorant)))
         return;
     rgb ratio = path_ratio(&p->path, f->majorant,
                            step * rng_float(&p->path.random));
@@ -83,24 +89,41 @@ HD void photon_passes(const flat_scene *s, photon_state *p,
                       photon_counters *c, photon_flight *f)
 {
     f->flies = 0;
-    photon_leave(s, p, c, f, f->hit.t, p->path.beta, p->path.r_u);
+    photon_leave(s, p, c, f, f->hit.t, p->path.beta,
+                 may_gray(p->path.r_u));
 }
 
 HD void photon_take_off(const flat_scene *s, photon_state *p,
                         photon_counters *c, photon_flight *f)
 {
-    path_state *a = &p->path;
-    bvh_ray r = bvh_ray_make(a->o, a->d);
-    f->hit = bvh_nearest(s, &r, &a->after, s->far);
+    bool clear = f->event == PATH_SCATTERED && f->clear;
+    f->seeks = clear ? PHOTON_SEEKS_NOT_YET : PHOTON_SEEKS;
+    f->hit.t = s->far;
     f->event = PATH_THROUGH;
     f->power = photon_power(p);
-    f->flies = f->draws = 1;
+    f->departs = f->flies = 1;
     f->collides = 0;
     f->lays = PHOTON_LAYS_NONE;
+    p->laid = p->path.after.t;
     c->track.rays++;
-    if (f->hit.shape < 0)
-        container_leave_bounded(s, &a->inside);
-    p->laid = a->after.t;
+}
+
+/* As the walk comes to a piece. */
+HD void photon_enter(const flat_scene *s, photon_flight *f)
+{
+    f->majorant = path_majorant(s, &f->walk, false);
+    f->t = f->walk.t;
+    if (f->seeks == PHOTON_SEEKS_NOT_YET && !walk_is_clear(&f->walk))
+        f->seeks = PHOTON_SEEKS;
+}
+
+/* Begins the walk, once it is known where the flight ends or that it begins
+ * where no surface is. */
+HD void photon_depart(const flat_scene *s, photon_state *p,
+                      photon_counters *c, photon_flight *f)
+{
+    path_state *a = &p->path;
+    f->departs = 0;
     walk_begin(s, &f->walk, &a->inside, true, a->o, a->d, a->after.t,
                f->hit.t);
     c->track.overflow += f->walk.overflow;
@@ -108,57 +131,76 @@ HD void photon_take_off(const flat_scene *s, photon_state *p,
         photon_passes(s, p, c, f);
         return;
     }
-    f->majorant = path_majorant(s, &f->walk, false);
-    f->t = f->walk.t;
+    f->tau = rng_optical_depth(&a->random);
+    photon_enter(s, f);
 }
 
-/* A tentative collision. */
+/* Seeks the next surface. */
+HD void photon_seek(const flat_scene *s, photon_state *p, photon_flight *f)
+{
+    bvh_ray r = bvh_ray_make(p->path.o, p->path.d);
+    f->hit = bvh_nearest(s, &r, &p->path.after, s->far);
+    f->seeks = PHOTON_HAS_SOUGHT;
+    if (f->hit.shape < 0)
+        container_leave_bounded(s, &p->path.inside);
+    if (!f->departs)
+        walk_stop(&f->walk, f->hit.t);
+}
+
+/* A tentative collision, and where the next one would be. */
 HD void photon_collide(const flat_scene *s, photon_state *p,
                        photon_counters *c, photon_flight *f)
 {
     path_state *a = &p->path;
     path_point at;
     int which = 0;
-    path_point_at(s, a, &f->walk, f->t, f->majorant, &at);
-    rgb beta = a->beta, r_u = a->r_u;
-    f->event = path_collide(a, &f->walk, &at, f->majorant, &which);
+    rgb majorant = may_gray(f->majorant);
+    f->collides = 0;
+    f->tau = rng_optical_depth(&a->random);
+    path_point_at(s, a, &f->walk, f->t, majorant, &at);
+    rgb beta = a->beta, r_u = may_gray(a->r_u);
+    f->event = path_collide(a, &f->walk, &at, majorant, &which);
     f->flies = f->event == PATH_THROUGH;
     if (!f->flies || !photon_gray(at.all_t))
         photon_leave(s, p, c, f, f->t, beta, r_u);
     f->at.t = f->t;
+    f->clear = walk_is_clear(&f->walk);
     if (f->event == PATH_SCATTERED)
         f->at.medium = walk_part(&f->walk, which)->medium;
 }
 
-/* Delta tracking as in path_track: what comes of a tentative collision, then
- * on to the next one or the end of a piece. */
+/* Delta tracking as in path_track: on to the next tentative collision or the
+ * end of a piece. */
 HD void photon_track(const flat_scene *s, photon_state *p, photon_counters *c,
                      photon_flight *f)
 {
-    if (f->draws)
-        f->tau = rng_optical_depth(&p->path.random);
-    f->draws = 0;
-    if (f->collides) {
-        f->collides = 0;
-        photon_collide(s, p, c, f);
-        if (!f->flies || f->lays)
-            return;
-    }
-    float driver = rgb_get(f->majorant, p->path.driver);
+    float driver = rgb_get(may_gray(f->majorant), p->path.driver);
     float left = driver * (f->walk.t_end - f->t);
-    f->collides = f->draws = f->tau < left;
+    f->collides = f->tau < left;
     float step = f->collides ? f->tau / driver : f->walk.t_end - f->t;
     photon_fly(s, p, c, f, step);
     f->t += step;
     if (f->collides)
         return;
     f->tau -= left;
-    if (walk_next(s, &f->walk)) {
-        f->majorant = path_majorant(s, &f->walk, false);
-        f->t = f->walk.t;
-    } else {
+    if (walk_next(s, &f->walk))
+        photon_enter(s, f);
+    else
         photon_passes(s, p, c, f);
-    }
+}
+
+/* What is next of a flight; PHOTON_LANDS at its end. */
+enum { PHOTON_LANDS, PHOTON_LOOKS, PHOTON_DEPARTS, PHOTON_TRACKS,
+       PHOTON_COLLIDES, PHOTON_LAYS };
+
+HD int photon_next(const photon_flight *f)
+{
+    return f->lays                   ? PHOTON_LAYS
+         : !f->flies                 ? PHOTON_LANDS
+         : f->seeks == PHOTON_SEEKS  ? PHOTON_LOOKS
+         : f->departs                ? PHOTON_DEPARTS
+         : f->collides               ? PHOTON_COLLIDES
+                                     : PHOTON_TRACKS;
 }
 
 /* ---- events ------------------------------------------------------------ */
@@ -215,7 +257,8 @@ HD bool photon_roulette(photon_state *p, photon_counters *c)
 HD void photon_store(const flat_scene *s, const photon_state *p,
                      photon_counters *c, vec3 at, vec3 d, int phase, float g)
 {
-    if (!p->stored || !c->tally.sum || !s->field.ball)
+    if (!scene_may(MAY_BALLS) || !p->stored || !c->tally.sum ||
+        !s->field.ball)
         return;
     if (radiance_splat(s, &c->tally, at, d, phase, g,
                        rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u))))
@@ -439,14 +482,21 @@ HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
     for (uint64_t i = first; i < first + n; i++) {
         photon_state p;
         photon_flight f;
+        f.event = PATH_THROUGH;
         bool alive = photon_begin(s, job, i, &p, c);
         while (alive) {
             photon_take_off(s, &p, c, &f);
-            while (f.flies || f.lays)
-                if (f.lays)
+            for (int next; (next = photon_next(&f)) != PHOTON_LANDS;)
+                if (next == PHOTON_LAYS)
                     photon_lay(s, &p, c, &f);
-                else
+                else if (next == PHOTON_TRACKS)
                     photon_track(s, &p, c, &f);
+                else if (next == PHOTON_COLLIDES)
+                    photon_collide(s, &p, c, &f);
+                else if (next == PHOTON_LOOKS)
+                    photon_seek(s, &p, &f);
+                else
+                    photon_depart(s, &p, c, &f);
             alive = photon_land(s, &p, c, &f);
         }
     }

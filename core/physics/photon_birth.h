@@ -480,9 +480,8 @@ HD void photon_from_body(const flat_scene *s, photon_state *p, const float *u,
 /* Power at the birth as the books tell it. */
 HD double photon_power(const photon_state *p)
 {
-    double power = (double)rgb_mean(p->path.beta) /
-                   (double)rgb_mean(p->path.r_u);
-    return p->light >= 0 ? power * (double)p->nominal : power;
+    float power = rgb_mean(p->path.beta) / rgb_mean(may_gray(p->path.r_u));
+    return p->light >= 0 ? (double)power * (double)p->nominal : (double)power;
 }
 
 /* The birth of one photon of a source, at a place in [0, 1) of all of them;

@@ -10,7 +10,7 @@
 #ifndef CORE_PHYSICS_RADIANCE_H
 #define CORE_PHYSICS_RADIANCE_H
 #include "core/physics/phase.h"
-#include "core/physics/scene.h"
+#include "core/physics/walk.h"
 
 /* A deposit of 1 (the mean photon's power across one side of a cell) counts
  * as much; and no single one counts as more than RADIANCE_MOST, so that 2^33
@@ -158,17 +158,12 @@ HD bool radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
 
 /* A flight on its way through the lattice. */
 typedef struct {
-    float o[3], d[3];       /* in cells                                    */
+    float o[3];             /* in cells                                    */
+    float inverse[3];       /* of the direction; 0: crosses no plane       */
     float t, end;
     float next[3];          /* distances of the next plane of each axis    */
     int32_t cell[3];
 } radiance_walk;
-
-/* Distance at which an axis leaves a cell. */
-HD float radiance_plane(float o, float d, int32_t cell)
-{
-    return d == 0.0f ? INFINITY : ((float)(cell + (d > 0.0f)) - o) / d;
-}
 
 /* False where o + t d, t in [t0, t1], misses the lattice. */
 HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
@@ -179,24 +174,25 @@ HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
     w->end = t1;
     for (int i = 0; i < 3; i++) {
         w->o[i] = (vec3_get(o, i) - f->origin[i]) / f->side;
-        w->d[i] = vec3_get(d, i) / f->side;
+        w->inverse[i] = walk_inverse(vec3_get(d, i) / f->side);
         float size = (float)(8 * f->bricks[i]);
-        if (w->d[i] == 0.0f) {
+        if (w->inverse[i] == 0.0f) {
             if (!(w->o[i] >= 0.0f && w->o[i] < size))
                 return false;
             continue;
         }
-        float a = -w->o[i] / w->d[i], b = (size - w->o[i]) / w->d[i];
+        float a = -w->o[i] * w->inverse[i];
+        float b = (size - w->o[i]) * w->inverse[i];
         w->t = hd_max(w->t, hd_min(a, b));
         w->end = hd_min(w->end, hd_max(a, b));
     }
     if (!(w->t < w->end))
         return false;
     for (int i = 0; i < 3; i++) {
-        int c = hd_floor(w->o[i] + w->t * w->d[i]);
+        int c = hd_floor(w->o[i] + w->t * (vec3_get(d, i) / f->side));
         int last = 8 * f->bricks[i] - 1;
         w->cell[i] = c < 0 ? 0 : c > last ? last : c;
-        w->next[i] = radiance_plane(w->o[i], w->d[i], w->cell[i]);
+        w->next[i] = walk_plane(w->o[i], w->inverse[i], w->cell[i]);
     }
     return true;
 }
@@ -209,10 +205,10 @@ HD bool radiance_step(const flat_scene *s, radiance_walk *w)
     bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
     int axis = z ? 2 : y ? 1 : 0;
     float o = z ? w->o[2] : y ? w->o[1] : w->o[0];
-    float d = z ? w->d[2] : y ? w->d[1] : w->d[0];
+    float inverse = z ? w->inverse[2] : y ? w->inverse[1] : w->inverse[0];
     int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
-                   (d > 0.0f ? 1 : -1);
-    float next = radiance_plane(o, d, cell);
+                   (inverse > 0.0f ? 1 : -1);
+    float next = walk_plane(o, inverse, cell);
     for (int i = 0; i < 3; i++) {
         w->cell[i] = i == axis ? cell : w->cell[i];
         w->next[i] = i == axis ? next : w->next[i];

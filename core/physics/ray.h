@@ -71,7 +71,8 @@ HD bvh_ray bvh_ray_make(real3 o, real3 d)
     r.o = o;
     r.d = d;
     r.inverse = real3_make(1 / d.x, 1 / d.y, 1 / d.z);
-    r.shear = triangle_ray_make(d);
+    if (scene_may(MAY_MESHES))
+        r.shear = triangle_ray_make(d);
     return r;
 }
 

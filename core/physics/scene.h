@@ -21,6 +21,13 @@ enum { MAX_DENSITIES = 4, MAX_PLANES = 6 };
 enum { MAX_ACTIVE = (SCENE_MAY & MAY_MANY) ? 16 : 1,
        MAX_CONTAINERS = MAX_ACTIVE };
 
+/* Of coefficients, densities and what flights through them weigh: without
+ * MAY_COLORS their channels are alike. */
+HD rgb may_gray(rgb c)
+{
+    return scene_may(MAY_COLORS) ? c : rgb_gray(c.r);
+}
+
 /* A grid of bricks; samples at integers of index space. Each stored brick
  * carries one more layer of samples on its upper sides, so that a trilinear
  * lookup reads a single brick. */
@@ -62,6 +69,7 @@ typedef struct {
     float density;          /* >= the density anywhere in the cell; of a
                                function as far as samples tell             */
     float rate;             /* emission samples per length; 0: none emitted */
+    int32_t clear;          /* 1: no shape's boundary goes through the cell */
 } majorant_cell;
 
 /* A medium: coefficients at density 1, and its majorant lattice. */

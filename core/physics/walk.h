@@ -55,6 +55,7 @@ typedef struct {
                                both infinite where the ray misses it       */
     float next[3];          /* distances to the next plane of each axis    */
     vec3 o, d;              /* the ray in lattice coordinates              */
+    float inverse[3];       /* walk_inverse of d                           */
     float t_end;            /* end of the current piece                    */
     majorant_cell bound;
 } lattice_walk;
@@ -83,10 +84,17 @@ HD const flat_medium *walk_medium(const flat_scene *s, const media_walk *w,
     return &s->media[walk_part(w, i)->medium];
 }
 
-/* Distance at which an axis leaves a cell. */
-HD float lattice_plane(float o, float d, int32_t cell)
+/* 1 / d; 0 where the ray crosses no plane of the axis. */
+HD float walk_inverse(float d)
 {
-    return d == 0.0f ? INFINITY : ((float)(cell + (d > 0.0f)) - o) / d;
+    return fabsf(d) > 1e-30f ? 1.0f / d : 0.0f;
+}
+
+/* Distance at which an axis leaves a cell. */
+HD float walk_plane(float o, float inverse, int32_t cell)
+{
+    return inverse == 0.0f ? INFINITY
+                           : ((float)(cell + (inverse > 0.0f)) - o) * inverse;
 }
 
 HD float lattice_next(const lattice_walk *w)
@@ -119,8 +127,8 @@ HD void lattice_enter(const flat_scene *s, lattice_walk *w, float t)
         float x = vec3_get(w->o, axis) + t * vec3_get(w->d, axis);
         int c = hd_floor(hd_max(x, 0.0f));
         w->cell[axis] = c < m->cells[axis] ? c : m->cells[axis] - 1;
-        w->next[axis] = lattice_plane(vec3_get(w->o, axis),
-                                      vec3_get(w->d, axis), w->cell[axis]);
+        w->next[axis] = walk_plane(vec3_get(w->o, axis), w->inverse[axis],
+                                   w->cell[axis]);
     }
     lattice_load(s, w);
     w->t_end = hd_max(lattice_next(w), t);
@@ -131,14 +139,15 @@ HD void lattice_clip(const flat_medium *m, lattice_walk *w)
 {
     float enter = -INFINITY, leave = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
-        float o = vec3_get(w->o, axis), d = vec3_get(w->d, axis);
-        float size = (float)m->cells[axis];
-        if (d == 0.0f) {
+        float o = vec3_get(w->o, axis), size = (float)m->cells[axis];
+        float inverse = walk_inverse(vec3_get(w->d, axis));
+        w->inverse[axis] = inverse;
+        if (inverse == 0.0f) {
             if (!(o >= 0.0f && o < size))
                 leave = -INFINITY;
             continue;
         }
-        float a = (0.0f - o) / d, b = (size - o) / d;
+        float a = (0.0f - o) * inverse, b = (size - o) * inverse;
         enter = hd_max(enter, hd_min(a, b));
         leave = hd_min(leave, hd_max(a, b));
     }
@@ -176,10 +185,10 @@ HD bool lattice_cross(lattice_walk *w, const int32_t *cells)
     bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
     int axis = z ? 2 : y ? 1 : 0;
     float o = z ? w->o.z : y ? w->o.y : w->o.x;
-    float d = z ? w->d.z : y ? w->d.y : w->d.x;
+    float inverse = z ? w->inverse[2] : y ? w->inverse[1] : w->inverse[0];
     int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
-                   (d > 0.0f ? 1 : -1);
-    float next = lattice_plane(o, d, cell);
+                   (inverse > 0.0f ? 1 : -1);
+    float next = walk_plane(o, inverse, cell);
     for (int i = 0; i < 3; i++) {
         w->cell[i] = i == axis ? cell : w->cell[i];
         w->next[i] = i == axis ? next : w->next[i];
@@ -271,6 +280,19 @@ HD void walk_begin(const flat_scene *s, media_walk *w,
     for (int i = 0; i < container_count(set); i++)
         walk_add_interior(s, w, container_interior(s, set, i), o, d);
     walk_set_end(w);
+}
+
+/* The walk ends at t, which its current piece does not lie beyond. */
+HD void walk_stop(media_walk *w, float t)
+{
+    w->t_max = t;
+    walk_set_end(w);
+}
+
+/* Whether the current piece lies in a cell without boundaries. */
+HD bool walk_is_clear(const media_walk *w)
+{
+    return w->count == 1 && w->part[0].inside && w->part[0].bound.clear;
 }
 
 /* The next piece; false at the end of the ray. */
