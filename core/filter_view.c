@@ -20,7 +20,7 @@ static bool same_numbers(const radiance_lattice *a, const radiance_lattice *b)
     return a->numbers == b->numbers && a->eye == b->eye &&
            a->fluence == b->fluence && a->flux == b->flux &&
            a->phase == b->phase && a->g == b->g && a->ball == b->ball &&
-           a->births == b->births;
+           a->births == b->births && a->lit == b->lit;
 }
 
 /* The most by which the logarithm of a phase function changes per radian;

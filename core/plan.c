@@ -156,7 +156,9 @@ struct stages plan_stages(const struct flat *f,
               options->photons.single == BRUME_SINGLE_FIELD;
     s.single = f->view.scatters && f->lights_count > 0 && !s.cells;
     s.path = has_surfaces(f) || (lit && !s.photons);
-    s.lines = s.passes || has_noisy_lines(f);
+    /* What cells hold of it comes along lines: edges are smoothed there. */
+    s.lines = s.passes || has_noisy_lines(f) ||
+              (s.photons && radiance_keeps_lit(f, options));
     s.needs = scene_needs(f) | (s.photons ? MAY_FIELD : 0);
     return s;
 }

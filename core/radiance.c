@@ -11,6 +11,9 @@
  * ones would hold more noise than detail. */
 #define FIELD_CELLS 64.0
 
+/* Lights that cells hold the light of, at most. */
+#define LIT_LIGHTS 4
+
 /* The streams of lattices' places. */
 #define SHIFT_PASS 0xfffffffbu
 
@@ -24,6 +27,7 @@ struct layout {
     bool passes;     /* one of many fields                      */
     double shift[3]; /* of the lattice, in cells                */
     bool snap;       /* other frames shall have the same cells  */
+    bool lit;        /* light straight from lights is kept      */
     radiance_lattice field;
 };
 
@@ -74,6 +78,26 @@ static bool has_surfaces(const struct flat *f)
     return false;
 }
 
+/* Where single.h seeks it, in a picture alone of densities that are known along
+ * lines and scatter alike, and where lights are few enough to look at all. */
+bool radiance_keeps_lit(const struct flat *f,
+                        const struct brume_options *options)
+{
+    const struct brume_photon_options *o = &options->photons;
+    bool alike;
+    first_phase(f, &alike);
+    if (options->integrator != BRUME_INTEGRATOR_PHOTON || !alike ||
+        o->gather == BRUME_GATHER_BALL || o->single == BRUME_SINGLE_FIELD ||
+        brume_film_reach(options) > 0 || o->film_cells ||
+        f->view.local_lights || f->lights_count < 1 ||
+        f->lights_count > LIT_LIGHTS)
+        return false;
+    for (size_t i = 0; i < f->media_count; i++)
+        if (f->media[i].sampled)
+            return false;
+    return true;
+}
+
 /* The eye's rays ask for what goes there, those that surfaces send on for
  * what goes anywhere. Of many fields none may be wrong but by its cells: where
  * a fluence and a flux are not enough, only the eye's straight lines read
@@ -109,6 +133,10 @@ static void choose_numbers(struct layout *l)
     if (out->fluence >= 0 && !even) {
         out->flux = out->numbers;
         out->numbers += 9;
+    }
+    if (l->lit) {
+        out->lit = out->numbers;
+        out->numbers += 3;
     }
 }
 
@@ -386,9 +414,10 @@ static struct layout begin(struct flat *flat,
     l.field.single = l.options->single == BRUME_SINGLE_FIELD &&
                      flat->lights_count > 0;
     l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
-    choose_numbers(&l);
     l.snap = !l.passes &&
              (brume_film_reach(options) > 0 || l.options->film_cells);
+    l.lit = radiance_keeps_lit(flat, options);
+    choose_numbers(&l);
     return l;
 }
 

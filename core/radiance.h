@@ -23,4 +23,9 @@ double radiance_scale(const radiance_lattice *field, double unit);
 
 /* From sums to the field. */
 void radiance_resolve(struct flat *flat, const int64_t *sum, double unit);
+
+/* Whether cells shall hold light straight from lights, of which paths then seek
+ * the rest. */
+bool radiance_keeps_lit(const struct flat *flat,
+                        const struct brume_options *options);
 #endif

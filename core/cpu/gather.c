@@ -38,7 +38,7 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
         radiance_resolve(flat, s->sum, unit);
     bool good = !(unit > 0.0 && f->ball) ||
                 parallel_for(s->threads, bricks, ball_brick, s, &s->stop);
-    good = good && (!f->single ||
+    good = good && (!(f->single || f->lit) ||
                     parallel_for(s->threads, bricks, light_brick, s, &s->stop));
     return good || brume_fail(err, BRUME_STOPPED, "the rendering was stopped");
 }

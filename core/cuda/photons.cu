@@ -181,7 +181,7 @@ bool cuda_gather(void *state, double unit, brume_error *err)
             s->sum, s->cells, count, radiance_scale(f, unit));
     if (unit > 0.0 && f->ball)
         s->photons->balls(&job);
-    if (f->single)
+    if (f->single || f->lit)
         s->photons->light(&job);
     return device_check(cudaGetLastError(), "launching the gather stage",
                         err) &&

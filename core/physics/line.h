@@ -161,6 +161,8 @@ HD rgb line_scattered(const line_job *job, const flat_medium *m,
 {
     rgb in = radiance_seen(job->s, light, m->phase, m->g,
                            vec3_scale(job->d, -1.0f));
+    if (job->s->field.lit)
+        in = rgb_add(in, light->lit);
     return rgb_mul(in, rgb_mul(m->sigma_s, density));
 }
 

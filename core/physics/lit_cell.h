@@ -6,30 +6,6 @@
 /* The streams of cells, apart from those of photons and of pixels' samples. */
 #define LIT_CELL_PASS 0xfffffffcu
 
-/* What comes through of light over `distance` from o along wi: surfaces by
- * their transparency, media exactly. */
-HD rgb lit_cell_left(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
-                     float distance, line_jitter jitter)
-{
-    bvh_ray r = bvh_ray_make(o, wi);
-    ray_hit after = hit_start(0.0f);
-    rgb left = rgb_gray(1.0f);
-    line_integral line = line_zero();
-    for (;;) {
-        ray_hit h = bvh_nearest(s, &r, &after, distance);
-        if (h.shape >= 0)
-            left = rgb_mul(left, shadow_surface(s, &r, &h));
-        if (rgb_is_black(left))
-            return left;
-        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false,
-                       jitter, &line);
-        if (h.shape < 0)
-            return rgb_mul(left, line_transmittance(&line));
-        shadow_cross(s, &h, set);
-        after = h;
-    }
-}
-
 /* What goes on to the eye of light from wi: in a field of balls of what the
  * media scatter, else of the light. */
 HD rgb lit_cell_seen(const flat_scene *s, const path_state *p,
@@ -54,9 +30,15 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
     container_set set = p->inside;
     rgb in = l.color;
     if (s->lights[light].shadows)
-        in = rgb_mul(in, lit_cell_left(s, &set, x, l.shadow_wi,
+        in = rgb_mul(in, shadow_line(s, &set, x, l.shadow_wi,
                                      l.shadow_distance,
                                      line_jitter_draw(s, &p->random)));
+    if (f->lit) {
+        rgb lit = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));
+        for (int c = 0; c < 3; c++)
+            out[f->lit + c] += rgb_get(lit, c);
+        return;
+    }
     rgb seen = rgb_gray(0.0f);
     if (f->eye >= 0)
         seen = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));

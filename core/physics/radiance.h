@@ -234,7 +234,7 @@ HD bool radiance_lay(const flat_scene *s, radiance_tally *t, radiance_walk *w,
 /* ---- reading ----------------------------------------------------------- */
 
 typedef struct {
-    rgb eye, fluence;
+    rgb eye, fluence, lit;
     vec3 flux[3];           /* of each channel                             */
     float births;
 } radiance_point;
@@ -249,6 +249,9 @@ HD rgb radiance_rgb(const float *v)
 HD void radiance_blend(const radiance_lattice *f, const float *v, bool eye,
                        float weight, radiance_point *out)
 {
+    if (eye && f->lit)
+        out->lit = rgb_add(out->lit,
+                           rgb_scale(radiance_rgb(v + f->lit), weight));
     if (eye && f->eye >= 0) {
         out->eye = rgb_add(out->eye,
                            rgb_scale(radiance_rgb(v + f->eye), weight));
@@ -269,7 +272,7 @@ HD radiance_point radiance_nothing(void)
 {
     radiance_point out;
     out.births = 0.0f;
-    out.eye = out.fluence = rgb_gray(0.0f);
+    out.eye = out.fluence = out.lit = rgb_gray(0.0f);
     out.flux[0] = out.flux[1] = out.flux[2] = vec3_make(0.0f, 0.0f, 0.0f);
     return out;
 }
@@ -312,6 +315,7 @@ HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
     out.births = sum > 0.0f ? out.births * scale : 1.0f;
     out.eye = rgb_scale(out.eye, scale);
     out.fluence = rgb_scale(out.fluence, scale);
+    out.lit = rgb_scale(out.lit, scale);
     for (int c = 0; c < 3; c++)
         out.flux[c] = vec3_scale(out.flux[c], scale);
     return out;

@@ -251,6 +251,9 @@ typedef struct {
     float far;              /* none farther along the view; or infinite    */
     int32_t straight;       /* 1: only the eye's straight lines read it    */
     int32_t single;         /* 1: light straight from lights is in it      */
+    int32_t lit;            /* place of light straight from lights that goes
+                               on to the eye, of which paths seek the rest
+                               along its rays; 0: they seek all            */
     int32_t births;         /* place of how many of the media's emission
                                photons were born for each that should have
                                been; 0: it is not asked for                */

@@ -1,9 +1,10 @@
 /* shadow.h - how much light passes between two points: surfaces by their
- * transparency, media by ratio tracking. */
+ * transparency, media by ratio tracking or exactly. */
 #ifndef CORE_PHYSICS_SHADOW_H
 #define CORE_PHYSICS_SHADOW_H
 #include "core/physics/bvh.h"
 #include "core/physics/hit.h"
+#include "core/physics/line.h"
 #include "core/physics/track.h"
 
 /* What a straight ray passes at a hit: the colour factor of the surface. */
@@ -64,6 +65,29 @@ HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
     HD_RETURN(set);
     HD_RETURN(random);
     return left;
+}
+
+/* The same without noise: media by their line integral. */
+HD rgb shadow_line(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
+                   float distance, line_jitter jitter)
+{
+    bvh_ray r = bvh_ray_make(o, wi);
+    ray_hit after = hit_start(0.0f);
+    rgb left = rgb_gray(1.0f);
+    line_integral line = line_zero();
+    for (;;) {
+        ray_hit h = bvh_nearest(s, &r, &after, distance);
+        if (h.shape >= 0)
+            left = rgb_mul(left, shadow_surface(s, &r, &h));
+        if (rgb_is_black(left))
+            return left;
+        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false,
+                       jitter, &line);
+        if (h.shape < 0)
+            return rgb_mul(left, line_transmittance(&line));
+        shadow_cross(s, &h, set);
+        after = h;
+    }
 }
 
 #endif

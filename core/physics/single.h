@@ -4,7 +4,12 @@
  * and lights do not fall off with distance, no flights are drawn: the ray goes
  * on to the next surface, and each light is sought at points of the stretch
  * that it can reach, chosen by a coarse profile of how much is scattered there
- * and comes through. */
+ * and comes through.
+ *
+ * Where the field's cells hold the light straight from lights (`lit`), the
+ * straight line gathers that without noise (march.h), and what is sampled here
+ * is what it is wrong by: the light at a point less that of the cells. The
+ * cells are a control variate, and change nothing but the noise. */
 #ifndef CORE_PHYSICS_SINGLE_H
 #define CORE_PHYSICS_SINGLE_H
 #include "core/physics/path.h"
@@ -244,12 +249,76 @@ HD void single_light(const flat_scene *s, path_state *p,
     }
 }
 
+/* Scattering of all media at x. */
+HD rgb single_sigma(const flat_scene *s, const path_state *p, vec3 x)
+{
+    rgb sum = rgb_gray(0.0f);
+    for (int i = -1; i < container_count(&p->inside); i++) {
+        int32_t interior = container_interior(s, &p->inside, i);
+        for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
+             k++) {
+            const flat_medium *m = &s->media[
+                s->interior_media[s->interiors[interior].first + k]];
+            field_point at = field_point_make(s, m->lead, x);
+            sum = rgb_add(sum, rgb_mul(m->sigma_s, medium_density(s, m, &at)));
+        }
+    }
+    return sum;
+}
+
+/* What media of the field's phase function scatter along p->d, per scattering
+ * coefficient, of all lights' light at x. */
+HD_APART rgb single_lights(const flat_scene *s, path_state *p, vec3 x)
+{
+    rgb sum = rgb_gray(0.0f);
+    float scale = phase_pov_scale(s->field.phase) * light_medium_factor(s);
+    for (int i = 0; i < (int)s->lights_count; i++) {
+        light_sample l;
+        if (!s->lights[i].media_interaction ||
+            !light_reach(s, i, x, &p->random, &l))
+            continue;
+        rgb in = rgb_scale(l.color, scale * phase_eval_between(
+                               s->field.phase, s->field.g, p->d, l.wi));
+        if (s->lights[i].shadows) {
+            container_set set = p->inside;
+            p->count->shadow_rays++;
+            in = rgb_mul(in, shadow_line(s, &set, x, l.shadow_wi,
+                                         l.shadow_distance,
+                                         line_jitter_draw(s, &p->random)));
+        }
+        sum = rgb_add(sum, in);
+    }
+    return sum;
+}
+
+/* What the cells are wrong by. */
+HD void single_rest(const flat_scene *s, path_state *p,
+                    const single_profile *f)
+{
+    float density, all = f->sum[f->count];
+    float t = single_place(f, p->along * all, &density);
+    vec3 x = vec3_mad(p->o, t, p->d);
+    rgb sigma = single_sigma(s, p, x);
+    p->count->lookups++;
+    if (!(density > 0.0f) || rgb_is_black(sigma))
+        return;
+    rgb rest = rgb_sub(single_lights(s, p, x), radiance_at(s, x, true).lit);
+    rgb value = rgb_scale(rgb_mul(rest, sigma), all / density);
+    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
+        p->after.t, t, &p->random, p->count));
+    p->count->collisions++;
+    path_add(p, rgb_mul(p->beta, value));
+}
+
 /* What the media of a segment scatter, and what passes them: black where that
  * is nothing. */
 HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
 {
     single_profile f;
-    if (single_look(s, p, h->t, &f))
+    bool scattered = single_look(s, p, h->t, &f);
+    if (scattered && s->field.lit)
+        single_rest(s, p, &f);
+    else if (scattered)
         for (int i = 0; i < (int)s->lights_count; i++) {
             float u = p->along + 0.61803399f * (float)i;
             single_light(s, p, &f, i, u - (float)hd_floor(u));

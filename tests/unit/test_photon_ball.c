@@ -177,6 +177,57 @@ static void photon_ball__light_stays_where_media_are_thick(void **state)
     brume_scene_free(s);
 }
 
+/* Sum of a picture, and of the squares of what it differs from another. */
+static double render_against(brume_scene *s, const struct brume_options *o,
+                             float other[3 * PIXELS], double *squares)
+{
+    struct brume_frame f;
+    double sum = 0.0;
+    assert_true(brume_render(s, o, &f, truth_error()));
+    for (int i = 0; i < 3 * PIXELS; i++) {
+        double off = (double)(f.radiance[i] - other[i]);
+        sum += (double)f.radiance[i];
+        *squares += off * off;
+        other[i] = f.radiance[i];
+    }
+    brume_frame_free(&f);
+    return sum;
+}
+
+/* In a picture alone cells tell what is scattered once, and paths seek the
+ * rest; in those of films paths seek all. The mean is the same, however coarse
+ * the cells; the noise is far less. */
+static void photon_ball__cells_take_noise_and_nothing_else(void **state)
+{
+    (void)state;
+    enum { TIMES = 12 };
+    double mean[2] = {0}, var[2] = {0}, noise[2] = {0};
+    brume_scene *s = small_cloud();
+    for (int kind = 0; kind < 2; kind++) {
+        float last[3 * PIXELS] = {0};
+        double squares = 0.0, ignored = 0.0;
+        struct brume_options o = ball_options(1);
+        o.photons.gather = BRUME_GATHER_TALLY;
+        o.photons.taps = kind ? 3 : 1;
+        o.photons.count = 200000;
+        o.photons.spacing = 0.25;
+        o.spp = 16;
+        for (o.seed = 1; o.seed <= TIMES; o.seed++) {
+            double x = render_against(s, &o, last,
+                                      o.seed > 1 ? &noise[kind] : &ignored);
+            mean[kind] += x / TIMES;
+            squares += x * x / TIMES;
+        }
+        var[kind] = (squares - mean[kind] * mean[kind]) / (TIMES - 1);
+    }
+    double error = sqrt(var[0] + var[1]);
+    if (!(fabs(mean[0] - mean[1]) < 4.0 * error) ||
+        !(error < 0.005 * mean[1]) || !(noise[0] < noise[1] / 4.0))
+        fail_msg("cells %.5f, rays %.5f, +- %.5f; noise %g of theirs", mean[0],
+                 mean[1], error, sqrt(noise[0] / noise[1]));
+    brume_scene_free(s);
+}
+
 /* Soot that is thickest and hottest in its middle, where it glows a thousand
  * times as brightly as a few voxels off. */
 static brume_scene *small_fire(void)
@@ -263,6 +314,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(photon_ball__births_light_a_sphere),
         cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
+        cmocka_unit_test(photon_ball__cells_take_noise_and_nothing_else),
         cmocka_unit_test(photon_ball__births_are_as_hot_as_the_place),
         cmocka_unit_test(photon_ball__voxels_have_their_share_of_births),
     };
