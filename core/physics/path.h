@@ -165,7 +165,9 @@ HD void path_along(const flat_scene *s, path_state *p)
     if (!light->local || !light->media_interaction || !(probability > 0.0f))
         return;
     equiangular e = path_angles(p, light);
-    float t = equiangular_sample(&e, rng_float(&p->random));
+    float first, second;
+    path_pair_floats(p, PATH_PAIR_FLIGHT, &first, &second);
+    float t = equiangular_sample(&e, second);
     path_vertex v;
     light_sample l;
     v.p = vec3_mad(p->o, t, p->d);
@@ -221,9 +223,10 @@ HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
 }
 
 /* A direction in proportion to how a diffuse surface or a medium scatters. */
-HD vec3 path_bounce_choose(const path_vertex *v, rng *r)
+HD vec3 path_bounce_choose(const path_vertex *v, path_state *p)
 {
-    float u = rng_float(r), w = rng_float(r), pdf;
+    float u, w, pdf;
+    path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
     if (v->medium)
         return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, &pdf);
     return warp_frame_to_world(warp_frame(v->surface->ns),
@@ -237,7 +240,7 @@ HD void path_sky_alone(const flat_scene *s, path_state *p,
     if (!s->environment)
         return;
     path_sky(s, p, v);
-    vec3 wi = path_bounce_choose(v, &p->random);
+    vec3 wi = path_bounce_choose(v, p);
     float pdf;
     rgb value = rgb_mul(path_bounce_eval(v, wi, &pdf), sky_radiance(s, wi));
     if (!(pdf > 0.0f) || !path_faces(v, wi) || rgb_is_black(value))
@@ -335,6 +338,7 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
     p->p_dir = pdf;
     p->after = hit_start(0.0f);
     p->straight = 0;
+    p->spread -= p->spread > 0;
     p->stretch.on = 0;
 }
 
@@ -409,9 +413,9 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
     }
     path_glow(s, p, &v);
     path_sky(s, p, &v);
-    float pdf, u = rng_float(&p->random);
-    vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u,
-                          rng_float(&p->random), &pdf);
+    float pdf, u, w;
+    path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
+    vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u, w, &pdf);
     path_turn(p, v.p, d, pdf);
     return path_survives(p);
 }
@@ -420,7 +424,7 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
 HD bool path_bounce(path_state *p, const path_vertex *v)
 {
     float pdf;
-    vec3 d = path_bounce_choose(v, &p->random);
+    vec3 d = path_bounce_choose(v, p);
     if (!path_faces(v, d))
         return false;
     rgb value = path_bounce_eval(v, d, &pdf);
@@ -514,6 +518,7 @@ HD void path_begin(path_state *p, vec3 o, vec3 d, const container_set *inside,
     p->random = random;
     p->driver = (int32_t)(rng_float(&p->random) * 3.0f);
     p->inside = *inside;
+    p->spread = 0;
     path_turn(p, o, d, 0.0f);
     p->straight = straight;
 }

@@ -6,6 +6,7 @@
 #include "core/physics/line.h"
 #include "core/physics/ray.h"
 #include "core/physics/rng.h"
+#include "core/physics/sobol.h"
 #include "core/physics/track.h"
 
 enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
@@ -32,6 +33,8 @@ typedef struct {
     int32_t driver;
     int32_t straight;       /* still on the line from the eye              */
     float along;            /* where on the eye's line single.h looks      */
+    int32_t spread;         /* so many more vertices take numbers that fill
+                               their space evenly over a pixel's samples   */
     float boost;            /* scattering events of this segment are drawn
                                so many times as often, and weigh so much less */
     path_stretch stretch;
@@ -48,6 +51,50 @@ HD void path_add(path_state *p, rgb value)
 {
     p->radiance = rgb_add(p->radiance,
                           rgb_scale(value, 1.0f / rgb_mean(p->r_u)));
+}
+
+/* What pairs of numbers are for, at each vertex that takes them. */
+enum { PATH_PAIR_FLIGHT, PATH_PAIR_TURN, PATH_PAIRS };
+
+/* The stream of their seeds, apart from those of samples and places. */
+#define PATH_PAIR_PASS 0xfffffffeu
+
+/* Two words, each as likely as any, for the next vertex. The number of the
+ * sample is that of the path's stream. */
+HD void path_pair(path_state *p, int what, uint32_t out[2])
+{
+    if (p->spread == 0) {
+        out[0] = rng_u32(&p->random);
+        out[1] = rng_u32(&p->random);
+        return;
+    }
+    rng_block b;
+    b.word[0] = p->random.counter[0];
+    b.word[1] = p->random.counter[1];
+    b.word[2] = PATH_PAIR_PASS;
+    b.word[3] = (uint32_t)(p->spread * PATH_PAIRS + what);
+    b = rng_block_of(b, p->random.key[0], p->random.key[1]);
+    sobol_pair(p->random.counter[2], b.word, out);
+}
+
+/* The same, in [0, 1). */
+HD void path_pair_floats(path_state *p, int what, float *u, float *v)
+{
+    uint32_t x[2];
+    path_pair(p, what, x);
+    *u = sobol_float(x[0]);
+    *v = sobol_float(x[1]);
+}
+
+/* Optical depth of the first flight from a vertex. */
+HD float path_depth(path_state *p)
+{
+    uint32_t x[2];
+    if (p->spread == 0)
+        return rng_optical_depth(&p->random);
+    path_pair(p, PATH_PAIR_FLIGHT, x);
+    return rng_depth_of(x[0], rng_depth_is_end(x[0])
+                              ? rng_u32(&p->random) : 0u);
 }
 
 /* ---- media between two surfaces ---------------------------------------- */
@@ -239,7 +286,7 @@ HD float path_room(const path_state *p)
 HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
                   path_event *out)
 {
-    float tau = rng_optical_depth(&p->random);
+    float tau = path_depth(p);
     rgb source = path_uniform_source(s, p, w);
     do {
         rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
@@ -296,12 +343,12 @@ HD float path_middle(const flat_scene *s, const path_state *p,
 }
 
 /* Thin media scatter few of the eye's rays: draw such events more often, up
- * to about one a ray, by one look at each piece. Each then carries less, and
- * what passes unscattered as much more as it comes less often: unbiased for
- * any factor that only the ray decides. */
+ * to about one ray in two, by one look at each piece. Each then carries less,
+ * and what passes unscattered as much more as it comes less often: unbiased
+ * for any factor that only the ray decides. */
 HD float path_boost(const path_state *p, float tau)
 {
-    const float enough = 1.5f, most = 8.0f;
+    const float enough = 0.75f, most = 8.0f;
     return p->straight ? hd_max(hd_min(enough / tau, most), 1.0f) : 1.0f;
 }
 
@@ -313,7 +360,7 @@ HD bool path_has_lamps(const flat_scene *s)
 /* Looks at each piece once, as far as it matters. */
 HD void path_look(const flat_scene *s, path_state *p, float t1)
 {
-    const float enough = 1.5f;
+    const float enough = 0.75f;
     media_walk w;
     float scattered = 0.0f, lost = 0.0f, all;
     path_stretch *look = &p->stretch;

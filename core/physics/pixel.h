@@ -6,6 +6,9 @@
 #include "core/physics/single.h"
 #include "core/physics/sobol.h"
 
+/* Vertices of a path whose numbers are spread over a pixel's samples. */
+enum { PIXEL_SPREAD = 2 };
+
 /* Sums over samples. Two halves of them stand apart: their difference tells
  * the error (METHODS.md 10). */
 typedef struct {
@@ -186,6 +189,7 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
     rng random = rng_make(job->seed, job->frame, i, index);
     path_begin(path, o, d, &set, true, random);
     path->along = along.first;
+    path->spread = PIXEL_SPREAD;
     count->paths++;
 }
 

@@ -51,6 +51,18 @@ HD uint32_t sobol_scramble(uint32_t x, uint32_t seed)
     return sobol_reverse(x);
 }
 
+/* A pair of further dimensions: the first two anew, each 4096 points in an
+ * order of their own [Burley 2020]. Those of all n below 2^k fill the square as
+ * evenly, and lie anyhow to the other dimensions. */
+HD void sobol_pair(uint32_t n, const uint32_t seed[3], uint32_t out[2])
+{
+    uint32_t x[SOBOL_DIMENSIONS];
+    uint32_t order = sobol_scramble(n << 20, seed[0]) >> 20;
+    sobol_point((n & ~4095u) | order, x);
+    out[0] = sobol_scramble(x[0], seed[1]);
+    out[1] = sobol_scramble(x[1], seed[2]);
+}
+
 /* In [0, 1), 24 bits. */
 HD float sobol_float(uint32_t x)
 {

@@ -258,6 +258,7 @@ static const struct recipe recipes[] = {
     {"t2-explosion", {80, 100, 80}, 0.5, 50, 0.5, 0, true, 0, fill_explosion},
     {"t3-flight", {256, 96, 256}, 1.0, 10, 0.5, 0, false, 0, fill_flight},
     {"t4-smoke", {96, 160, 96}, 2.0, 32, 0.5, 60, false, LIFT, fill_smoke},
+    {"peer-cloud", {192, 128, 192}, 1.15, 60, 0.5, 0, false, 0, fill_cloud},
 };
 enum { RECIPES = sizeof recipes / sizeof *recipes };
 

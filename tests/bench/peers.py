@@ -4,6 +4,10 @@
     python3 -m venv /tmp/mitsuba && /tmp/mitsuba/bin/pip install mitsuba
     make tools && /tmp/mitsuba/bin/python tests/bench/peers.py
 
+The variants of LLVM want its version 17 or later (of Debian 12, libllvm19),
+named by DRJIT_LIBLLVM_PATH: 14 to 16 end the program. Rows are printed as they
+come.
+
 Each program draws independent frames on the same processor, in turn; relMSE
 is the mean over pixels of variance / (mean^2 + 0.01 (mean of picture)^2), and
 is multiplied by CPU seconds, of all threads. The means must agree: they are
@@ -142,25 +146,32 @@ def mitsuba(name, folder, integrator):
     return (var / (mean ** 2 + floor)).mean(), cost, mean.mean()
 
 
+def row(scene, what, measured, own):
+    mse, cost, mean = measured
+    print(f"| {scene} | {what} | {mse:.4g} | {cost:.3g} | {mse * cost:.4g} | "
+          f"{mse * cost / own:.3g} | {mean:.5g} |", flush=True)
+
+
+def peers(scene, folder, own):
+    for variant in "scalar_rgb", "llvm_ad_rgb":
+        try:
+            mi.set_variant(variant)
+            for integrator in "volpath", "volpathmis":
+                row(scene, f"{variant} {integrator}",
+                    mitsuba(scene, folder, integrator), own)
+        except Exception as problem:
+            print(f"{variant}: {problem}", file=sys.stderr)
+
+
 def main():
     print("| scene | program | relMSE | CPU s | product | over Brume | mean |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
-    for name in sys.argv[1:] or SPP:
+    for scene in sys.argv[1:] or SPP:
         with tempfile.TemporaryDirectory() as folder:
-            rows = [("brume path", brume(name, folder))]
-            for variant in "scalar_rgb", "llvm_ad_rgb":
-                try:
-                    mi.set_variant(variant)
-                    for integrator in "volpath", "volpathmis":
-                        rows.append((f"{variant} {integrator}",
-                                     mitsuba(name, folder, integrator)))
-                except Exception as problem:
-                    print(f"{variant}: {problem}", file=sys.stderr)
-            own = rows[0][1][0] * rows[0][1][1]
-            for what, (mse, cost, mean) in rows:
-                print(f"| {name} | {what} | {mse:.4g} | {cost:.3g} | "
-                      f"{mse * cost:.4g} | {mse * cost / own:.3g} | "
-                      f"{mean:.5g} |", flush=True)
+            ours = brume(scene, folder)
+            own = ours[0] * ours[1]
+            row(scene, "brume path", ours, own)
+            peers(scene, folder, own)
 
 
 if __name__ == "__main__":

@@ -53,6 +53,31 @@ static void test_rectangles(void **state)
         }
 }
 
+/* A pair's points are as even, in whatever order, and by each seed in one of
+ * its own. */
+static void test_pairs(void **state)
+{
+    (void)state;
+    int apart = 0;
+    for (int seed = 0; seed < SEEDS; seed++)
+        for (int wide = 0; wide <= MOST; wide++) {
+            unsigned char taken[1 << MOST] = {0};
+            for (uint32_t n = 0; n < 1u << MOST; n++) {
+                const uint32_t s[3] = {seed_of(seed), seed_of(seed + 100),
+                                       seed_of(seed + 200)};
+                const uint32_t t[3] = {seed_of(seed + 300), s[1], s[2]};
+                uint32_t x[2], y[2];
+                sobol_pair(n + (1u << 20), s, x);
+                sobol_pair(n + (1u << 20), t, y);
+                apart += x[0] != y[0];
+                uint32_t at = wide ? x[0] >> (32 - wide) << (MOST - wide) : 0;
+                at |= wide < MOST ? x[1] >> (32 - (MOST - wide)) : 0;
+                assert_int_equal(taken[at]++, 0);
+            }
+        }
+    assert_true(apart > SEEDS * (MOST + 1) << (MOST - 1));
+}
+
 /* Where a point lies depends on the seed alone, and any place is as likely. */
 static void test_seeds(void **state)
 {
@@ -123,7 +148,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals), cmocka_unit_test(test_rectangles),
-        cmocka_unit_test(test_seeds), cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_halves)};
+        cmocka_unit_test(test_seeds),     cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_halves),    cmocka_unit_test(test_pairs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
