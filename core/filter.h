@@ -26,6 +26,18 @@ bool filter_keep(const struct flat *flat, double power,
 void filter_release(struct filter_field *field);
 uint64_t filter_bytes(const struct filter_field *field);
 
+/* What filter_adapt works in, kept from frame to frame, as the system takes
+ * longer to give the memory than the filter to fill it. Zero to begin with;
+ * one caller at a time. */
+struct filter_scratch {
+    struct filter_stats *stats[2];
+    struct filter_places *places;
+    struct filter_side *side;
+    struct filter_desk *desk;
+    size_t stats_room[2], places_room, side_room, desk_room;
+};
+void filter_scratch_release(struct filter_scratch *scratch);
+
 /* Fills the field of a frame with the weighted mean of those of 2 reach + 1
  * frames, NULL where there is none. Weights are made to sum to 1 over those
  * that have a cell where one is wanted. False: no memory. */
@@ -36,5 +48,6 @@ bool filter_mean(struct flat *flat, const struct filter_field *const *fields,
 /* The same with weights of its own for each cell, see filter_adapt.c; the
  * frame's own field is in the middle. */
 bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
-                  int reach, int threads, struct brume_error *err);
+                  int reach, int threads, struct filter_scratch *scratch,
+                  struct brume_error *err);
 #endif

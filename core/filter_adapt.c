@@ -35,12 +35,14 @@ enum { MIDDLE = FILTER_MIDDLE, OTHERS = FILTER_OTHERS };
 struct adapt {
     struct filter_judge judge;
     float noise[BRUME_MAX_TAPS];
-    struct desk {
-        struct filter_stats near[2][FILTER_BLOCKS]; /* as they are, moved */
-        struct filter_stats plane[24];
-        float weight[2][BRUME_MAX_TAPS][FILTER_BLOCKS];
-        struct filter_room room;
-    } * desk; /* a thread's */
+    struct filter_desk *desk; /* a thread's */
+};
+
+struct filter_desk {
+    struct filter_stats near[2][FILTER_BLOCKS]; /* as they are, moved */
+    struct filter_stats plane[24];
+    float weight[2][BRUME_MAX_TAPS][FILTER_BLOCKS];
+    struct filter_room room;
 };
 
 /* ---- surroundings ------------------------------------------------------- */
@@ -99,7 +101,8 @@ static void sum_layer(struct filter_stats plane[24], int z,
 }
 
 /* Sums over each block and those around it: along x, y, then z. */
-static void sum_around(struct desk *d, struct filter_stats near[FILTER_BLOCKS],
+static void sum_around(struct filter_desk *d,
+                       struct filter_stats near[FILTER_BLOCKS],
                        const struct filter_stats *const around[27])
 {
     for (int z = -1; z < 5; z++) {
@@ -324,7 +327,8 @@ static float differ(const struct adapt *a, const struct filter_stats *s,
     return count > 0.0f ? sum / count : INFINITY;
 }
 
-static bool is_better_moved(const struct adapt *a, const struct desk *d, int i)
+static bool is_better_moved(const struct adapt *a, const struct filter_desk *d,
+                            int i)
 {
     float move[OTHERS];
     const struct filter_stats *s = &d->near[0][i];
@@ -365,7 +369,7 @@ static bool is_used(const float weight[FILTER_BLOCKS])
 }
 
 static void mix_brick(const struct adapt *a, size_t slot, const int corner[3],
-                      struct desk *d, float *out)
+                      struct filter_desk *d, float *out)
 {
     struct filter_brick brick;
     int numbers = a->judge.flat->view.field.numbers;
@@ -379,7 +383,7 @@ static void mix_brick(const struct adapt *a, size_t slot, const int corner[3],
 
 /* Weights of a brick's blocks. */
 static void weigh_brick(const struct adapt *a, int32_t slot,
-                        const int corner[3], struct desk *d)
+                        const int corner[3], struct filter_desk *d)
 {
     const struct filter_stats *around[27];
     int modes = a->judge.places ? 2 : 1;
@@ -405,7 +409,7 @@ static void adapt_brick(void *context, size_t index, int thread)
     const struct adapt *a = context;
     const struct flat *flat = a->judge.flat;
     const radiance_lattice *f = &flat->view.field;
-    struct desk *d = &a->desk[thread];
+    struct filter_desk *d = &a->desk[thread];
     int32_t slot = flat->radiance_slots[index];
     int corner[3];
     if (slot < 0)
@@ -418,7 +422,8 @@ static void adapt_brick(void *context, size_t index, int thread)
 }
 
 bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
-                  int reach, int threads, struct brume_error *err)
+                  int reach, int threads, struct filter_scratch *scratch,
+                  struct brume_error *err)
 {
     struct adapt a = {.judge = {.flat = flat, .reach = reach}};
     const radiance_lattice *f = &flat->view.field;
@@ -432,12 +437,12 @@ bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         a.noise[k] = larger(a.noise[k], 1e-3f * a.noise[MIDDLE]);
     threads = threads > 0 ? threads : thread_processors();
-    a.desk = memory_new((size_t)threads, sizeof *a.desk, err);
-    bool good = a.desk && filter_judge(&a.judge, threads, err);
+    a.desk = memory_grow(scratch->desk, &scratch->desk_room, (size_t)threads,
+                         sizeof *a.desk, err);
+    scratch->desk = a.desk ? a.desk : scratch->desk;
+    bool good = a.desk && filter_judge(&a.judge, threads, scratch, err);
     if (good)
         parallel_for(threads, flat->radiance_slots_count, adapt_brick, &a,
                      NULL);
-    filter_judge_release(&a.judge);
-    free(a.desk);
     return good;
 }

@@ -1,5 +1,6 @@
 #include "core/filter_judge.h"
 #include <stdlib.h>
+#include <string.h>
 #include "lib/memory.h"
 #include "lib/thread.h"
 
@@ -14,10 +15,15 @@ struct side {
     struct filter_room room;
 };
 
+/* The middle frame, the one before and the one after. */
+struct filter_side {
+    struct side of[3];
+};
+
 struct desk {
     const struct filter_judge *judge;
     bool moved;
-    struct side (*side)[3]; /* a thread's: middle, before and after    */
+    struct filter_side *side; /* a thread's                             */
 };
 
 /* A block is there if all its cells are. */
@@ -151,7 +157,7 @@ static void judge_brick(void *context, size_t index, int thread)
 {
     const struct desk *desk = context;
     const struct filter_judge *judge = desk->judge;
-    struct side *side = desk->side[thread];
+    struct side *side = desk->side[thread].of;
     int32_t slot = judge->flat->radiance_slots[index];
     int corner[3];
     if (slot < 0)
@@ -159,6 +165,7 @@ static void judge_brick(void *context, size_t index, int thread)
     filter_corner(&judge->flat->view.field, index, corner);
     struct filter_stats *out = judge->stats[desk->moved] +
                                (size_t)slot * FILTER_BLOCKS;
+    memset(out, 0, FILTER_BLOCKS * sizeof *out);
     load(desk, FILTER_MIDDLE, (size_t)slot, corner, &side[0]);
     if (!side[0].any)
         return;
@@ -177,34 +184,42 @@ static void judge_brick(void *context, size_t index, int thread)
 
 /* Judges frames as they are, or moved. */
 static bool judge_all(struct filter_judge *judge, bool moved, int threads,
-                      struct brume_error *err)
+                      struct filter_scratch *scratch, struct brume_error *err)
 {
-    struct desk desk = {judge, moved, NULL};
     const struct flat *flat = judge->flat;
     size_t numbers = (size_t)flat->view.field.numbers;
     size_t blocks = flat->radiance_count / (numbers * FILTER_CELLS) *
                     FILTER_BLOCKS;
-    judge->stats[moved] = memory_new(blocks, sizeof *judge->stats[moved], err);
-    desk.side = memory_new((size_t)threads, sizeof *desk.side, err);
-    bool good = judge->stats[moved] && desk.side;
-    if (good)
-        parallel_for(threads, flat->radiance_slots_count, judge_brick, &desk,
-                     NULL);
-    free(desk.side);
-    return good;
+    struct filter_stats *stats = memory_grow(scratch->stats[moved],
+                                             &scratch->stats_room[moved],
+                                             blocks, sizeof *stats, err);
+    if (!stats)
+        return false;
+    judge->stats[moved] = scratch->stats[moved] = stats;
+    struct desk desk = {judge, moved, scratch->side};
+    parallel_for(threads, flat->radiance_slots_count, judge_brick, &desk, NULL);
+    return true;
 }
 
 bool filter_judge(struct filter_judge *judge, int threads,
-                  struct brume_error *err)
+                  struct filter_scratch *scratch, struct brume_error *err)
 {
-    return filter_follow(judge, threads, err) &&
-           judge_all(judge, false, threads, err) &&
-           (!judge->places || judge_all(judge, true, threads, err));
+    struct filter_side *side = memory_grow(scratch->side, &scratch->side_room,
+                                           (size_t)threads, sizeof *side, err);
+    if (!side)
+        return false;
+    scratch->side = side;
+    return filter_follow(judge, threads, scratch, err) &&
+           judge_all(judge, false, threads, scratch, err) &&
+           (!judge->places || judge_all(judge, true, threads, scratch, err));
 }
 
-void filter_judge_release(struct filter_judge *judge)
+void filter_scratch_release(struct filter_scratch *s)
 {
-    free(judge->stats[0]);
-    free(judge->stats[1]);
-    free(judge->places);
+    free(s->stats[0]);
+    free(s->stats[1]);
+    free(s->places);
+    free(s->side);
+    free(s->desk);
+    memset(s, 0, sizeof *s);
 }

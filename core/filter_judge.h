@@ -36,7 +36,7 @@ struct filter_judge {
 /* Finds where blocks are in other frames, see filter_path.c; false: no memory.
  */
 bool filter_follow(struct filter_judge *judge, int threads,
-                   struct brume_error *err);
+                   struct filter_scratch *scratch, struct brume_error *err);
 
 /* The cells of the frame at k where the middle one has a brick, or where it
  * was then. */
@@ -52,10 +52,9 @@ static inline bool filter_load(const struct filter_judge *judge, int k,
     return filter_view_brick(&judge->view[k], corner, places, room, out);
 }
 
-/* Fills the stats, and places; false: no memory. */
+/* Fills the stats, and places, which are of the scratch; false: no memory. */
 bool filter_judge(struct filter_judge *judge, int threads,
-                  struct brume_error *err);
-void filter_judge_release(struct filter_judge *judge);
+                  struct filter_scratch *scratch, struct brume_error *err);
 
 /* The place in the list above of the frame at `k`, FILTER_MIDDLE the middle
  * one's. */

@@ -130,7 +130,7 @@ static bool has_drift(const struct filter_judge *judge)
 }
 
 bool filter_follow(struct filter_judge *judge, int threads,
-                   struct brume_error *err)
+                   struct filter_scratch *scratch, struct brume_error *err)
 {
     const struct flat *flat = judge->flat;
     size_t bricks = flat->radiance_count /
@@ -138,10 +138,12 @@ bool filter_follow(struct filter_judge *judge, int threads,
     judge->places = NULL;
     if (!has_drift(judge))
         return true;
-    judge->places = memory_new(bricks * BRUME_MAX_TAPS, sizeof *judge->places,
-                               err);
-    if (!judge->places)
+    struct filter_places *places = memory_grow(
+        scratch->places, &scratch->places_room, bricks * BRUME_MAX_TAPS,
+        sizeof *places, err);
+    if (!places)
         return false;
+    judge->places = scratch->places = places;
     parallel_for(threads, flat->radiance_slots_count, follow_brick, judge,
                  NULL);
     return true;

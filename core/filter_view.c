@@ -185,6 +185,13 @@ static const float *aligned_cells(const struct filter_view *v,
                    corner[1] + 8 * v->brick[1], corner[2] + 8 * v->brick[2]);
 }
 
+/* One of the 2^3 cells of a block of a brick. */
+static int cell_of_block(int block, int k)
+{
+    int x = 2 * (block & 3) + (k & 1), y = 2 * (block >> 2 & 3) + (k >> 1 & 1);
+    return (2 * (block >> 4) + (k >> 2)) * 64 + y * 8 + x;
+}
+
 /* Whether there is a cell, whose numbers are 0 if not. */
 static bool put_cell(struct filter_room *room, int cell, int numbers,
                      bool there)
@@ -216,30 +223,34 @@ static bool fill_cells(const struct filter_view *v, const int corner[3],
 
 /* The 3^3 cells around a block's place. */
 struct around {
-    float cell[27][FILTER_MAX_NUMBERS];
-    float there[27];
+    const float *cell[27]; /* NULL: none */
     float fraction[3];
+    int count; /* of those that are there */
 };
 
-static bool load_around(const struct filter_view *v, const float place[3],
+static void load_around(const struct filter_view *v, const float place[3],
                         struct around *a)
 {
     int low[3], numbers = v->field->lattice.numbers;
-    bool any = false;
+    bool within = true;
     for (int i = 0; i < 3; i++) {
         float whole = floorf(place[i]);
         low[i] = (int)whole;
         a->fraction[i] = place[i] - whole;
+        within = within && (low[i] & 7) < 6;
     }
-    for (int k = 0; k < 27; k++) {
-        const float *cell = cell_at(v->field, low[0] + k % 3,
-                                    low[1] + k / 3 % 3, low[2] + k / 9);
-        a->there[k] = cell ? 1.0f : 0.0f;
-        for (int i = 0; i < numbers; i++)
-            a->cell[k][i] = cell ? cell[i] : 0.0f;
-        any = any || cell;
-    }
-    return any;
+    const float *first = cell_at(v->field, low[0], low[1], low[2]);
+    a->count = 0;
+    for (int z = 0, k = 0; z < 3; z++)
+        for (int y = 0; y < 3; y++)
+            for (int x = 0; x < 3; x++, k++) {
+                /* Most are in one brick. */
+                a->cell[k] = !within ? cell_at(v->field, low[0] + x, low[1] + y,
+                                               low[2] + z)
+                             : first ? first + (z * 64 + y * 8 + x) * numbers
+                                     : NULL;
+                a->count += a->cell[k] != NULL;
+            }
 }
 
 /* The weights of the three cells of an axis for the first cell of a block, or
@@ -251,21 +262,21 @@ static void weights_of(float fraction, int second, float weight[3])
     weight[2] = second ? fraction : 0.0f;
 }
 
-static bool mix_around(const struct filter_view *v, const struct around *a,
-                       int cell, float *out)
+/* A cell of a block some of whose surroundings are not there. */
+static bool mix_around(const struct around *a, int numbers, int cell,
+                       float *out)
 {
-    int numbers = v->field->lattice.numbers;
     float x[3], y[3], z[3], sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0f;
     weights_of(a->fraction[0], cell & 1, x);
     weights_of(a->fraction[1], cell >> 1 & 1, y);
     weights_of(a->fraction[2], cell >> 2, z);
-    int first = (cell & 1) + 3 * (cell >> 1 & 1) + 9 * (cell >> 2);
-    for (int k = 0; k < 8; k++) {
-        int at = first + (k & 1) + 3 * (k >> 1 & 1) + 9 * (k >> 2);
-        float weight = x[at % 3] * y[at / 3 % 3] * z[at / 9] * a->there[at];
+    for (int k = 0; k < 27; k++) {
+        float weight = x[k % 3] * y[k / 3 % 3] * z[k / 9];
+        if (!a->cell[k] || !(weight > 0.0f))
+            continue;
         weights += weight;
         for (int i = 0; i < numbers; i++)
-            sum[i] += weight * a->cell[at][i];
+            sum[i] += weight * a->cell[k][i];
     }
     if (!(weights >= 0.5f))
         return false;
@@ -274,23 +285,67 @@ static bool mix_around(const struct filter_view *v, const struct around *a,
     return true;
 }
 
+static void put_around(const struct around *a, int numbers, int block,
+                       struct filter_room *room)
+{
+    for (int k = 0; k < 8; k++) {
+        int cell = cell_of_block(block, k);
+        put_cell(room, cell, numbers,
+                 a->count > 0 &&
+                     mix_around(a, numbers, k, room->cells + cell * numbers));
+    }
+}
+
+static float blend(float a, float b, float t)
+{
+    return a + t * (b - a);
+}
+
+/* One number of a block whose surroundings are all there: along x, y, z. */
+static void blend_number(const struct around *a, int number, float out[8])
+{
+    float x[18], y[12];
+    const float *f = a->fraction;
+    for (int i = 0; i < 9; i++) {
+        float p = a->cell[3 * i][number], q = a->cell[3 * i + 1][number];
+        x[2 * i] = blend(p, q, f[0]);
+        x[2 * i + 1] = blend(q, a->cell[3 * i + 2][number], f[0]);
+    }
+    for (int z = 0; z < 3; z++)
+        for (int i = 0; i < 4; i++)
+            y[4 * z + i] = blend(x[6 * z + i], x[6 * z + i + 2], f[1]);
+    for (int i = 0; i < 8; i++)
+        out[i] = blend(y[i], y[i + 4], f[2]);
+}
+
+static void put_whole(const struct around *a, int numbers, int block,
+                      struct filter_room *room)
+{
+    float out[8];
+    for (int n = 0; n < numbers; n++) {
+        blend_number(a, n, out);
+        for (int k = 0; k < 8; k++)
+            room->cells[cell_of_block(block, k) * numbers + n] = out[k];
+    }
+    for (int k = 0; k < 8; k++)
+        room->there[cell_of_block(block, k)] = 1.0f;
+}
+
 static bool fill_moved(const struct filter_view *v,
                        const struct filter_places *places,
                        struct filter_room *room)
 {
     int numbers = v->field->lattice.numbers;
-    struct around around;
     bool any = false;
     for (int b = 0; b < FILTER_BLOCKS; b++) {
-        bool there = !isnan(places->first[b][0]) &&
-                     load_around(v, places->first[b], &around);
-        for (int k = 0; k < 8; k++) {
-            int x = 2 * (b & 3) + (k & 1), y = 2 * (b >> 2 & 3) + (k >> 1 & 1);
-            int cell = (2 * (b >> 4) + (k >> 2)) * 64 + y * 8 + x;
-            float *out = room->cells + cell * numbers;
-            any |= put_cell(room, cell, numbers,
-                            there && mix_around(v, &around, k, out));
-        }
+        struct around around = {.count = 0};
+        if (!isnan(places->first[b][0]))
+            load_around(v, places->first[b], &around);
+        if (around.count == 27)
+            put_whole(&around, numbers, b, room);
+        else
+            put_around(&around, numbers, b, room);
+        any = any || around.count > 0;
     }
     return any;
 }

@@ -57,6 +57,7 @@ struct worker {
     int number;                /* also of its device                   */
     struct brume_still *still; /* of all but the first, who have that
                                   of the options                       */
+    struct filter_scratch *scratch;
 };
 
 struct brume_film {
@@ -247,27 +248,29 @@ static bool list_fields(struct brume_film *film, const struct task *task,
     return true;
 }
 
-static bool run_filter(struct shot *shot,
+static bool run_filter(const struct worker *worker, struct shot *shot,
                        const struct filter_field *const *fields, int reach,
                        struct brume_error *err)
 {
     const struct brume_options *o = &shot->options;
     if (o->photons.adaptive)
-        return filter_adapt(shot->job.flat, fields, reach, o->threads, err);
+        return filter_adapt(shot->job.flat, fields, reach, o->threads,
+                            worker->scratch, err);
     return filter_mean(shot->job.flat, fields, o->photons.weight, reach,
                        o->threads, err);
 }
 
-static bool filter_shot(struct brume_film *film, const struct task *task,
+static bool filter_shot(const struct worker *worker, const struct task *task,
                         struct shot *shot, struct brume_error *err)
 {
+    struct brume_film *film = worker->film;
     const struct filter_field *fields[BRUME_MAX_TAPS];
     int reach = brume_film_reach(&shot->options);
     struct brume_photon_stats *stats = &shot->out.stats.photons;
     double start = timer_seconds();
     if (!list_fields(film, task, reach, fields, err))
         return false;
-    if (!run_filter(shot, fields, reach, err))
+    if (!run_filter(worker, shot, fields, reach, err))
         return false;
     stats->ring = shot->job.held = __atomic_load_n(&film->ring,
                                                    __ATOMIC_RELAXED);
@@ -279,7 +282,6 @@ static bool filter_shot(struct brume_film *film, const struct task *task,
 static bool render_shot(const struct worker *worker, const struct task *task,
                         struct shot *shot, struct brume_error *err)
 {
-    struct brume_film *film = worker->film;
     if (!shot)
         return brume_fail(err, BRUME_ERR_USAGE, "frame %lu was not pushed",
                           (unsigned long)task->number);
@@ -294,7 +296,7 @@ static bool render_shot(const struct worker *worker, const struct task *task,
         *err = shot->err;
         return false;
     }
-    return (!shot->traced || filter_shot(film, task, shot, err)) &&
+    return (!shot->traced || filter_shot(worker, task, shot, err)) &&
            frame_render(&shot->job, shot->traced, err);
 }
 
@@ -371,6 +373,8 @@ static void *run(void *context)
     struct worker *worker = context;
     struct brume_film *film = worker->film;
     struct task *task = NULL;
+    struct filter_scratch scratch = {.desk = NULL};
+    worker->scratch = &scratch;
     frame_use_device(worker->number);
     pthread_mutex_lock(&film->lock);
     while (!film->quit) {
@@ -386,6 +390,7 @@ static void *run(void *context)
         finish_task(film, task);
     }
     pthread_mutex_unlock(&film->lock);
+    filter_scratch_release(&scratch);
     return NULL;
 }
 

@@ -118,6 +118,7 @@ static void add(const float *x, const struct filter_field truth[2], int which,
 static void filter(int which, struct flat *flat,
                    const struct filter_field *const field[TAPS])
 {
+    static struct filter_scratch scratch;
     struct brume_error err = {0};
     struct brume_photon_options o = {0};
     double even[TAPS];
@@ -128,7 +129,7 @@ static void filter(int which, struct flat *flat,
     if (which < 3)
         brume_film_taps(&o, 1 + 2 * which);
     require(which == 3 || which == 4
-                ? filter_adapt(flat, list, reach[which], 0, &err)
+                ? filter_adapt(flat, list, reach[which], 0, &scratch, &err)
                 : filter_mean(flat, list, which < 3 ? o.weight : even,
                               reach[which], 0, &err),
             err.text);

@@ -130,6 +130,7 @@ static void filter__adapts_to_change(void **state)
     (void)state;
     enum { REACH = 4, TAPS = 2 * REACH + 1 };
     double error[3] = {0}, one = 0.0;
+    struct filter_scratch scratch = {.desk = NULL};
     struct filter_field field[TAPS], truth;
     const struct filter_field *list[TAPS];
     struct brume_options o = fog_options(5, 77);
@@ -146,7 +147,8 @@ static void filter__adapts_to_change(void **state)
         for (size_t i = 0; i < truth.count; i++)
             one += pow((double)(field[REACH].cells[i] - truth.cells[i]), 2.0);
         for (int change = 0; change < 3; change++) {
-            assert_true(filter_adapt(flat, list, REACH, 2, truth_error()));
+            assert_true(
+                filter_adapt(flat, list, REACH, 2, &scratch, truth_error()));
             for (size_t i = 0; i < truth.count; i++)
                 error[change] += pow(
                     (double)(flat->radiance[i] - truth.cells[i]), 2.0);
@@ -161,6 +163,7 @@ static void filter__adapts_to_change(void **state)
         }
         flat_free(flat);
     }
+    filter_scratch_release(&scratch);
     print_message("still %.4f, one side %.4f, none %.4f\n", error[0] / one,
                   error[1] / one, error[2] / one);
     assert_true(error[0] / one < 1.3 / TAPS);

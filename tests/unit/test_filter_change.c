@@ -40,6 +40,7 @@ static struct left filter_film(struct fog (*frame)(int k), bool adaptive)
     static uint32_t noise = 1;
     struct filter_field field[TAPS], truth[2];
     const struct filter_field *list[TAPS];
+    struct filter_scratch scratch = {.desk = NULL};
     struct flat *flat = NULL;
     double even[TAPS];
     for (int k = 0; k < TAPS + 2; k++) {
@@ -58,9 +59,10 @@ static struct left filter_film(struct fog (*frame)(int k), bool adaptive)
     for (int k = 0; k < TAPS; k++)
         even[k] = 1.0;
     assert_int_equal(field[REACH].count, truth[0].count);
-    assert_true(adaptive
-                    ? filter_adapt(flat, list, REACH, 2, truth_error())
-                    : filter_mean(flat, list, even, REACH, 2, truth_error()));
+    assert_true(
+        adaptive ? filter_adapt(flat, list, REACH, 2, &scratch, truth_error())
+                 : filter_mean(flat, list, even, REACH, 2, truth_error()));
+    filter_scratch_release(&scratch);
     struct left left = compare(flat->radiance, &field[REACH], truth);
     flat_free(flat);
     for (int k = 0; k < TAPS; k++)
