@@ -350,17 +350,20 @@ static bool fill_moved(const struct filter_view *v,
     return any;
 }
 
-/* Leaves out what was seen from elsewhere. */
+/* Leaves out blocks that were seen from elsewhere, by their first cells. */
 static bool drop_unlike(const struct filter_view *v, const int corner[3],
                         float there[FILTER_CELLS])
 {
     bool any = false;
-    for (int i = 0; i < FILTER_CELLS; i++) {
-        int at[3] = {corner[0] + (i & 7), corner[1] + (i >> 3 & 7),
-                     corner[2] + (i >> 6)};
-        if (there[i] > 0.0f && !is_seen_alike(v, at))
-            there[i] = 0.0f;
-        any = any || there[i] > 0.0f;
+    for (int b = 0; b < FILTER_BLOCKS; b++) {
+        int at[3] = {corner[0] + 2 * (b & 3), corner[1] + 2 * (b >> 2 & 3),
+                     corner[2] + 2 * (b >> 4)};
+        bool alike = is_seen_alike(v, at);
+        for (int k = 0; k < 8; k++) {
+            float *cell = &there[cell_of_block(b, k)];
+            *cell = alike ? *cell : 0.0f;
+            any = any || *cell > 0.0f;
+        }
     }
     return any;
 }
