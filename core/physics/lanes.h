@@ -35,7 +35,8 @@ HD void lanes_set(lanes *out, real a, real b, real c, real d)
     out->v[2] = c;
     out->v[3] = d;
 #else
-    *out = (lanes){a, b, c, d};
+    const lanes all = {a, b, c, d};
+    *out = all;
 #endif
 }
 

@@ -475,6 +475,24 @@ HD bool photon_begin(const flat_scene *s, const photon_job *job,
     return !rgb_is_black(p->path.beta);
 }
 
+/* The whole of a flight. */
+HD void photon_pass(const flat_scene *s, photon_state *p, photon_counters *c,
+                    photon_flight *f)
+{
+    photon_take_off(s, p, c, f);
+    for (int next; (next = photon_next(f)) != PHOTON_LANDS;)
+        if (next == PHOTON_LAYS)
+            photon_lay(s, p, c, f);
+        else if (next == PHOTON_TRACKS)
+            photon_track(s, p, c, f);
+        else if (next == PHOTON_COLLIDES)
+            photon_collide(s, p, c, f);
+        else if (next == PHOTON_LOOKS)
+            photon_seek(s, p, f);
+        else
+            photon_depart(s, p, c, f);
+}
+
 /* The whole of photons [first, first + n). */
 HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
                    uint64_t n, photon_counters *c)
@@ -485,18 +503,7 @@ HD void photon_run(const flat_scene *s, const photon_job *job, uint64_t first,
         f.event = PATH_THROUGH;
         bool alive = photon_begin(s, job, i, &p, c);
         while (alive) {
-            photon_take_off(s, &p, c, &f);
-            for (int next; (next = photon_next(&f)) != PHOTON_LANDS;)
-                if (next == PHOTON_LAYS)
-                    photon_lay(s, &p, c, &f);
-                else if (next == PHOTON_TRACKS)
-                    photon_track(s, &p, c, &f);
-                else if (next == PHOTON_COLLIDES)
-                    photon_collide(s, &p, c, &f);
-                else if (next == PHOTON_LOOKS)
-                    photon_seek(s, &p, &f);
-                else
-                    photon_depart(s, &p, c, &f);
+            photon_pass(s, &p, c, &f);
             alive = photon_land(s, &p, c, &f);
         }
     }

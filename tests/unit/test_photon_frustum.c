@@ -175,15 +175,10 @@ static void photon_frustum__photons_stored_are_those_gathered(void **state)
         c.tally.sum = calloc(f->radiance_count, sizeof(int64_t));
         for (uint64_t i = 0; i < PHOTONS; i++) {
             photon_state p;
-            photon_flight flight;
+            photon_flight flight = {.event = PATH_THROUGH};
             bool alive = photon_begin(&f->view, &photons.job, i, &p, &c);
             while (alive) {
-                photon_take_off(&f->view, &p, &c, &flight);
-                while (flight.flies || flight.lays)
-                    if (flight.lays)
-                        photon_lay(&f->view, &p, &c, &flight);
-                    else
-                        photon_track(&f->view, &p, &c, &flight);
+                photon_pass(&f->view, &p, &c, &flight);
                 bool first = p.light >= 0;
                 alive = photon_land(&f->view, &p, &c, &flight);
                 /* First events of lights are theirs, not photons'. */
