@@ -35,9 +35,10 @@ struct backend {
      * backend and into it; both NULL where it works on those of `flat`. */
     bool (*take)(void *state, float *cells, struct brume_error *err);
     bool (*put)(void *state, const float *cells, struct brume_error *err);
-    /* Adds samples [film->samples, film->samples + count) to every pixel. On
-     * failure or stop the film is not to be used any more. */
-    bool (*sample)(void *state, uint32_t count, struct brume_stats *stats,
+    /* Adds samples [film->samples, film->samples + *count) to every pixel. On
+     * a stop *count is how many were added; 0: the film, as on failure, is not
+     * to be used any more. */
+    bool (*sample)(void *state, uint32_t *count, struct brume_stats *stats,
                    struct brume_error *err);
     void (*close)(void *state);
     /* The field has been laid out anew: its sums are zero. NULL where it can't

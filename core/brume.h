@@ -427,6 +427,28 @@ struct brume_still;
 BRUME_API struct brume_still *brume_still_new(struct brume_error *err);
 BRUME_API void brume_still_free(struct brume_still *still);
 
+/* A picture that is not finished: with it, it goes on to the same bytes. */
+struct brume_part {
+    const char *backend;        /* that rendered it                        */
+    uint32_t samples;           /* of each pixel                           */
+    uint32_t left, met;         /* of the pass that it is in; checks passed */
+    double error;
+    uint64_t count[8];
+    void *pixel;                /* sums of the pixels                      */
+    size_t bytes;
+};
+
+/* Keeps such parts: called when the rendering is stopped, and each minute,
+ * from the thread that renders. */
+struct brume_keeper {
+    void *user;
+    void (*save)(void *user, uint32_t frame, const struct brume_part *part);
+    /* Asked for the part of a picture that is begun: fills in all but the
+     * backend, which has to be the same, and `bytes` at `pixel`. False: there
+     * is none, and `pixel` may be filled with anything. */
+    bool (*load)(void *user, uint32_t frame, struct brume_part *part);
+};
+
 /* Rendering goes on until `spp` samples, or the estimated relative error
  * `error`, or `seconds`, whichever are given (> 0), the first to be met. */
 struct brume_options {
@@ -451,11 +473,12 @@ struct brume_options {
     int tree_stack;             /* entries of the kd-tree's, 1 to 32; 0: 4 */
     struct brume_still *still;  /* of BRUME_TREE_BOTH, or NULL             */
     struct brume_photon_options photons;
+    const struct brume_keeper *keeper;  /* or NULL                         */
 };
 #define BRUME_OPTIONS_INIT                                                    \
     {640, 480, 0, 0, 0, 0, BRUME_INTEGRATOR_PATH, BRUME_BACKEND_AUTO, 0, 0,   \
      0, 0, 0, 0, 0, NULL, NULL, NULL, false, BRUME_TREE_BVH, 0, NULL,         \
-     BRUME_PHOTONS_INIT}
+     BRUME_PHOTONS_INIT, NULL}
 /* The error aimed at when neither spp, error nor seconds is given, and the
  * most samples that an error is chased with. */
 #define BRUME_DEFAULT_ERROR 0.05

@@ -93,15 +93,27 @@ static double fraction(const struct frame_job *j, double samples)
     return fmin(part, 1.0);
 }
 
+/* Where a picture that is not finished can be kept, the CPU takes all samples
+ * of a piece if it is not slow. */
+static bool goes_on(const struct frame_job *j, double now)
+{
+    enum { PATIENCE = 2 }; /* seconds                               */
+    bool worth = j->options->keeper && j->backend == &backend_cpu &&
+                 j->photons == 0;
+    return !j->stopped || (worth && now - j->stopped_at < PATIENCE);
+}
+
 static bool tell(struct frame_job *j, struct brume_progress *p, double items)
 {
     double now = timer_seconds();
     p->seconds = now - j->start;
     if (now > j->sampling)
         p->rate = items / (now - j->sampling);
-    if (!j->options->progress(j->options->user, p))
+    if (!j->stopped && !j->options->progress(j->options->user, p)) {
         j->stopped = true;
-    return !j->stopped;
+        j->stopped_at = now;
+    }
+    return goes_on(j, now);
 }
 
 static bool tick(void *user, double done)
@@ -114,7 +126,7 @@ static bool tick(void *user, double done)
             .stage = "trace", .item = "photons", .fraction = done};
         return tell(j, &p, done * (double)j->photons);
     }
-    double samples = j->film.samples + done * j->pass;
+    double samples = j->film.samples + done * j->piece;
     struct brume_progress p = {.stage = "path", .item = "paths"};
     p.fraction = fraction(j, samples);
     return tell(j, &p, samples * (double)film_pixels(&j->film));
@@ -184,43 +196,146 @@ static bool stop_or(const struct frame_job *j, bool good,
     return good;
 }
 
-/* Samples of one pass. */
+/* ---- pictures that are not finished ------------------------------------ */
+
+#define KEPT_COUNTERS(X)                                                       \
+    X(0, paths)                                                                \
+    X(1, rays)                                                                 \
+    X(2, shadow_rays)                                                          \
+    X(3, collisions)                                                           \
+    X(4, lookups)                                                              \
+    X(5, majorant_exceeded)                                                    \
+    X(6, overflow)                                                             \
+    X(7, rejected)
+
+static struct brume_part part_of(struct frame_job *j)
+{
+    struct brume_part part = {.backend = j->backend->name,
+                              .samples = j->film.samples,
+                              .left = j->left,
+                              .met = j->met,
+                              .error = j->out->stats.error,
+                              .pixel = j->film.pixel,
+                              .bytes = film_pixels(&j->film) *
+                                       sizeof(film_pixel)};
+#define X(i, name) part.count[i] = j->out->stats.name - j->begun.name;
+    KEPT_COUNTERS(X)
+#undef X
+    return part;
+}
+
+static void save_part(struct frame_job *j)
+{
+    const struct brume_keeper *keeper = j->options->keeper;
+    struct brume_part part = part_of(j);
+    if (keeper && !j->torn && part.samples > 0)
+        keeper->save(keeper->user, j->options->frame, &part);
+    j->saved = timer_seconds();
+}
+
+/* Before the backend is opened, which takes the film as it is then. */
+static void load_part(struct frame_job *j)
+{
+    const struct brume_keeper *keeper = j->options->keeper;
+    struct brume_part part = part_of(j);
+    if (!keeper || !j->rendering || part.bytes == 0)
+        return;
+    if (!keeper->load(keeper->user, j->options->frame, &part)) {
+        memset(part.pixel, 0, part.bytes);
+        return;
+    }
+    j->film.samples = part.samples;
+    j->left = part.left;
+    j->met = part.met;
+    j->out->stats.error = part.error;
+    j->loaded = part;
+#define X(i, name) j->out->stats.name += part.count[i];
+    KEPT_COUNTERS(X)
+#undef X
+}
+
+/* ---- samples ------------------------------------------------------------ */
+
+/* So many that a stop is heard soon, and a picture that takes long is kept
+ * now and then. A GPU stops where it likes, but brings its film each time. */
+static uint32_t next_piece(const struct frame_job *j)
+{
+    bool cpu = j->backend == &backend_cpu;
+    double fits = j->rate > 0.0 ? j->rate * (cpu ? 1.0 : 20.0) : 1.0;
+    double most = fmin(fmin(fits, 8.0 * fmax(j->piece, 1.0)), j->left);
+    return most > 1.0 ? (uint32_t)most : 1u;
+}
+
+/* What is left of the pass. */
 static bool sample_some(struct frame_job *j, struct brume_error *err)
 {
-    bool good = j->backend->sample(j->state, j->pass, &j->out->stats, err);
-    j->film.samples += good ? j->pass : 0;
-    return stop_or(j, good, err);
+    enum { KEEP = 60 }; /* seconds                               */
+    while (j->left > 0) {
+        double start = timer_seconds();
+        uint32_t count = j->piece = next_piece(j);
+        if (!j->backend->sample(j->state, &count, &j->out->stats, err))
+            return false;
+        j->torn = count == 0;
+        j->film.samples += count;
+        j->left -= count;
+        if (j->stopped)
+            return stop_or(j, true, err);
+        double now = timer_seconds();
+        j->rate = count / fmax(now - start, 1e-6);
+        if (now - j->saved > KEEP && j->left > 0)
+            save_part(j);
+    }
+    return true;
 }
 
 /* As many samples, each of a field of its own, so that the halves of the film
  * tell what the fields' noise is, too. */
 static bool sample_fields(struct frame_job *j, struct brume_error *err)
 {
-    uint32_t count = j->pass;
     bool good = true;
-    for (uint32_t i = 0; good && i < count; i++) {
-        j->pass = 0;
+    for (uint32_t left = j->left; good && left > 0; left--) {
+        j->piece = 0;
         good = radiance_renew(j->flat, j->options, j->film.samples, err) &&
                check_memory(j, j->flat, err) &&
                (!j->backend->renew || j->backend->renew(j->state, err)) &&
                run_photons(j, err);
-        j->pass = 1;
+        j->left = 1;
         good = good && sample_some(j, err);
+        j->left += left - 1;
     }
+    return good;
+}
+
+static void check_error(struct frame_job *j)
+{
+    j->out->stats.error = film_error(&j->film);
+    j->met = j->out->stats.error <= j->error ? j->met + 1 : 0;
+}
+
+static bool sample_pass(struct frame_job *j, struct brume_error *err)
+{
+    bool good = j->stages.passes ? sample_fields(j, err) : sample_some(j, err);
+    if (!good && j->stopped)
+        save_part(j);
+    if (good)
+        check_error(j);
     return good;
 }
 
 static bool sample_passes(struct frame_job *j, struct brume_error *err)
 {
     struct brume_stats *stats = &j->out->stats;
-    int met = 0;
-    j->sampling = timer_seconds();
-    while ((j->pass = next_pass(j, met)) > 0) {
-        if (!(j->stages.passes ? sample_fields(j, err) : sample_some(j, err)))
+    j->sampling = j->saved = timer_seconds();
+    j->begun = *stats;
+#define X(i, name) j->begun.name -= j->loaded.count[i];
+    KEPT_COUNTERS(X)
+#undef X
+    /* One that was kept at the end of a pass. */
+    if (j->film.samples > 0 && j->left == 0)
+        check_error(j);
+    while (j->left > 0 || (j->left = next_pass(j, (int)j->met)) > 0)
+        if (!sample_pass(j, err))
             return false;
-        stats->error = film_error(&j->film);
-        met = stats->error <= j->error ? met + 1 : 0;
-    }
     stats->spp = (int)j->film.samples;
     stats->seconds_render = timer_seconds() - j->sampling -
                             (j->stages.passes ? stats->photons.seconds : 0.0);
@@ -292,7 +407,8 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
         return brume_fail(err, BRUME_ERR_USAGE,
                           "backend %s has no integrator progressive yet",
                           b->name);
-    if (!photons_plan(flat, j->options, j->film.samples, &photons, err))
+    uint32_t pass = j->stages.passes ? j->film.samples : 0;
+    if (!photons_plan(flat, j->options, pass, &photons, err))
         return false;
     double start = timer_seconds();
     if (!j->stages.passes) {
@@ -340,6 +456,7 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
         return false;
     j->stages = plan_stages(j->flat, j->options);
     j->film.lines = j->stages.lines;
+    load_part(j);
     struct backend_frame frame = {j->flat,  j->options, &j->stages,
                                   &j->film, tick,       j};
     j->state = open_backend(j, &j->backend, &frame, err);
@@ -398,6 +515,7 @@ static bool run_stages(struct frame_job *j, bool traced,
 bool frame_render(struct frame_job *j, bool traced, struct brume_error *err)
 {
     j->start = timer_seconds() - j->spent;
+    j->rendering = true;
     bool good = open_state(j, err) && run_stages(j, traced, err) &&
                 film_resolve(&j->film, j->options->omit_background, j->out,
                              err);

@@ -18,7 +18,16 @@ struct frame_job {
     double power;           /* of the mean photon that was traced      */
     double error;           /* aimed at, 0: none                       */
     uint32_t most;          /* samples                                 */
-    uint32_t pass;          /* samples of the current pass             */
+    uint32_t left;          /* samples of the pass still to be taken,  */
+    uint32_t piece;         /* and of the call of the backend          */
+    uint32_t met;           /* successive checks with a small error    */
+    double rate;            /* samples a second of the last piece      */
+    double saved;           /* when the picture's part was kept        */
+    double stopped_at;
+    struct brume_stats begun;   /* before the first sample             */
+    struct brume_part loaded;   /* that the picture goes on from       */
+    bool rendering;         /* the picture, not its field alone        */
+    bool torn;              /* pixels have different samples           */
     uint64_t photons;       /* of the trace that runs; 0: paths do     */
     bool stopped;
 };

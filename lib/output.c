@@ -1,9 +1,11 @@
 #include "lib/output.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include "lib/memory.h"
@@ -13,6 +15,7 @@ struct output {
     char *path;      /* as the caller names it                         */
     char *target;    /* where links lead                               */
     char *temporary; /* NULL when the target is written in place       */
+    bool hurried;
 };
 
 static bool fail(const char *path, int reason, struct brume_error *err)
@@ -37,6 +40,15 @@ static size_t folder_length(const char *path)
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
+/* A file that is written is locked, so that nobody sweeps it away: false where
+ * that happened before it was. Where there are no locks, nobody sweeps. */
+static bool hold(int fd)
+{
+    struct stat st;
+    (void)flock(fd, LOCK_EX);
+    return fstat(fd, &st) != 0 || st.st_nlink > 0;
+}
+
 /* Makes a file that nobody else has, in the target's folder. Its name does
  * not grow with the target's, which may have the longest name allowed. */
 static int open_temporary(struct output *o, mode_t mode)
@@ -51,8 +63,10 @@ static int open_temporary(struct output *o, mode_t mode)
                  o->target, (long)getpid(), n);
         int fd = open(o->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC,
                       mode);
-        if (fd >= 0 || errno != EEXIST)
+        if ((fd >= 0 && hold(fd)) || (fd < 0 && errno != EEXIST))
             return fd;
+        if (fd >= 0)
+            close(fd);
     }
     return -1;
 }
@@ -111,13 +125,59 @@ const char *output_name(const struct output *o)
     return o->temporary ? o->temporary : o->target;
 }
 
+void output_hurry(struct output *o)
+{
+    o->hurried = true;
+}
+
+/* Whether it is called as open_temporary calls files. */
+static bool is_temporary(const char *name)
+{
+    long process;
+    unsigned number;
+    int end = 0;
+    return sscanf(name, ".brume-%ld-%u.tmp%n", &process, &number, &end) == 2 &&
+           end > 0 && name[end] == '\0';
+}
+
+static void sweep_one(int folder, const char *name)
+{
+    struct stat st;
+    int fd = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0)
+        return;
+    if (fstat(fd, &st) == 0 && S_ISREG(st.st_mode) &&
+        flock(fd, LOCK_EX | LOCK_NB) == 0)
+        unlinkat(folder, name, 0);
+    close(fd);
+}
+
+void output_sweep(const char *path)
+{
+    char folder[PATH_MAX] = ".";
+    size_t length = folder_length(path);
+    if (length >= sizeof folder)
+        return;
+    if (length > 0) {
+        memcpy(folder, path, length);
+        folder[length] = '\0';
+    }
+    DIR *dir = opendir(folder);
+    const struct dirent *entry;
+    while (dir && (entry = readdir(dir)))
+        if (is_temporary(entry->d_name))
+            sweep_one(dirfd(dir), entry->d_name);
+    if (dir)
+        closedir(dir);
+}
+
 /* Pipes and devices can't be synced, which is no failure of the writing. */
-static bool flush_to_disk(FILE *stream)
+static bool flush_to_disk(FILE *stream, bool hurried)
 {
     if (fflush(stream) != 0 || ferror(stream))
         return false;
-    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == EROFS ||
-           errno == ENOTSUP;
+    return hurried || fsync(fileno(stream)) == 0 || errno == EINVAL ||
+           errno == EROFS || errno == ENOTSUP;
 }
 
 /* The name is on the disk only when its folder is; where a folder can't be
@@ -142,7 +202,7 @@ static void sync_folder(const char *path)
 bool output_commit(struct output *o, struct brume_error *err)
 {
     errno = 0;
-    bool ok = flush_to_disk(o->stream);
+    bool ok = flush_to_disk(o->stream, o->hurried);
     int reason = errno ? errno : EIO;
     if (fclose(o->stream) != 0 && ok) {
         ok = false;
@@ -156,7 +216,7 @@ bool output_commit(struct output *o, struct brume_error *err)
         fail(o->path, reason, err);
         if (o->temporary)
             unlink(o->temporary);
-    } else if (o->temporary) {
+    } else if (o->temporary && !o->hurried) {
         sync_folder(o->target);
     }
     release(o);

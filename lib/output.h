@@ -27,6 +27,14 @@ FILE *output_stream(struct output *o);
  * opening it itself. */
 const char *output_name(const struct output *o);
 
+/* It need not be on the disk when it is committed: for what a hash guards, and
+ * is wanted soon. */
+void output_hurry(struct output *o);
+
+/* Removes what programs that were killed left unfinished in the folder of a
+ * path; what is still being written is locked, and stays. */
+void output_sweep(const char *path);
+
 /* Ends the file and frees `o`. False with err set when any write failed: the
  * target is then as it was before. */
 bool output_commit(struct output *o, struct brume_error *err);

@@ -14,10 +14,25 @@
 /* Set by SIGINT and SIGTERM; a second one of them ends the process at once. */
 static volatile sig_atomic_t stop;
 
+/* A run that is told to stop has so many seconds for it. */
+enum { PATIENCE = 4 };
+
 static void on_signal(int signal)
 {
     (void)signal;
     stop = 1;
+    alarm(PATIENCE);
+}
+
+/* What can't be heard in time, as in the reading of a large file, is ended:
+ * files have their names only when they are whole, and the next run sweeps
+ * what was being written. */
+static void on_alarm(int signal)
+{
+    static const char text[] = "stopped in the middle of something long\n";
+    (void)signal;
+    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(BRUME_STOPPED);
 }
 
 /* Without SA_RESTART, so that a read that waits for input ends too. A closed
@@ -30,6 +45,7 @@ static void catch_signals(void)
     };
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    signal(SIGALRM, on_alarm);
     signal(SIGPIPE, SIG_IGN);
 }
 

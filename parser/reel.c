@@ -1,4 +1,5 @@
 #include "parser/reel_parts.h"
+#include "lib/output.h"
 #include "lib/timer.h"
 #include "parser/input.h"
 #include "parser/naming.h"
@@ -137,13 +138,27 @@ static bool open_manifest(struct reel *reel, struct brume_error *err)
     return reel->manifest;
 }
 
+/* Pictures that go to files are kept while they are not finished. */
+static bool open_partials(struct reel *reel, struct brume_error *err)
+{
+    struct options *o = reel->options;
+    if (o->action != OPTIONS_RENDER || !o->to_file || naming_is_stream(o))
+        return true;
+    const char *path = naming_beside(o, "", &reel->arena);
+    if (!path)
+        return brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+    output_sweep(path);
+    reel->partials = partial_new(err);
+    return reel->partials;
+}
+
 static bool begin(struct reel *reel, struct brume_error *err)
 {
     frames_init(&reel->frames, reel->options);
     if (!choose_part(reel, err) ||
         !frames_region(reel->options, reel->region, err) ||
         !find_scene(reel, err) || !find_folders(reel, err) ||
-        !open_manifest(reel, err))
+        !open_manifest(reel, err) || !open_partials(reel, err))
         return false;
     warn_of_extension(reel);
     if (reel->options->tree != BRUME_TREE_BOTH && !reel->frames.animation)
@@ -178,7 +193,7 @@ static bool read_scene(struct reel *reel, int number,
         .allow_writes = reel->allow_writes,
         .written = &reel->written,
         .cache = reel->cache,
-        .origins = reel->manifest ? origins : NULL,
+        .origins = reel->manifest || reel->partials ? origins : NULL,
         .declare = options->declare,
         .declares = options->declares,
         .limits = {.include_depth = options->include_depth,
@@ -260,6 +275,7 @@ struct brume_options reel_options(struct reel *reel, int number,
     r.warn = reel_warn;
     r.user = reel;
     r.omit_background = o->alpha;
+    r.keeper = partial_keeper(reel->partials);
     return r;
 }
 
@@ -415,5 +431,6 @@ void reel_release(struct reel *reel)
     brume_still_free(reel->still);
     parse_cache_free(reel->cache);
     manifest_close(reel->manifest);
+    partial_free(reel->partials);
     arena_release(&reel->arena);
 }

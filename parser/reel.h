@@ -12,6 +12,7 @@
 #include "parser/measure_temporal.h"
 #include "parser/options.h"
 #include "parser/parse.h"
+#include "parser/partial.h"
 
 /* What became of one frame. */
 struct reel_record {
@@ -66,6 +67,7 @@ struct reel {
     struct brume_still *still;      /* of an animation, and --tree both    */
     struct parse_cache *cache;      /* or NULL                             */
     struct manifest *manifest;      /* or NULL                             */
+    struct partial_list *partials;  /* or NULL                             */
     size_t skipped;                 /* pictures that were left out         */
     const struct reel_sink *sink;   /* or NULL                             */
     int region[4];

@@ -342,6 +342,8 @@ static enum brume_code finish_order(struct film_run *run)
             (size_t)run->orders * sizeof *run->order);
     events->frame(events->user, &reel->frames, order.record.number);
     bool ok = finish_picture(run, &order, &err);
+    if (reel->partials)
+        partial_end(reel->partials, (uint32_t)order.record.number, !ok);
     parse_origins_release(&order.origins);
     return ok ? BRUME_OK : reel_fail(reel, &err);
 }
@@ -357,6 +359,10 @@ static bool add_order(struct film_run *run, const struct reading *reading,
         if (abs(run->reading[i].record.number - number) <= reading->reach)
             origins_merge(&order->origins, &run->reading[i].origins);
     run->orders++;
+    if (run->reel->partials && order->record.picture)
+        partial_begin(run->reel->partials, (uint32_t)number,
+                      order->record.picture, settings_of(run->reel, number),
+                      &order->origins, run->reel->options->resume);
     return brume_film_ask(run->film, (uint32_t)number, (uint32_t)f->initial,
                           (uint32_t)f->final, err);
 }

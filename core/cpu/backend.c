@@ -84,19 +84,22 @@ static void add_counts(const struct cpu_state *s, struct brume_stats *out)
         cpu_add_track(&s->count[i], out);
 }
 
-static bool cpu_sample(void *state, uint32_t count, struct brume_stats *stats,
+static bool cpu_sample(void *state, uint32_t *count, struct brume_stats *stats,
                        struct brume_error *err)
 {
     (void)err;
     struct cpu_state *s = state;
     const struct film *film = s->frame.film;
-    s->samples = count;
+    s->samples = *count;
     atomic_store(&s->rows_done, 0);
     atomic_store(&s->stop, false);
     memset(s->count, 0, (size_t)s->threads * sizeof *s->count);
     parallel_for(s->threads, (size_t)(film->y1 - film->y0), sample_row, s,
                  &s->stop);
     add_counts(s, stats);
+    if (atomic_load(&s->stop) &&
+        atomic_load(&s->rows_done) < (size_t)(film->y1 - film->y0))
+        *count = 0;
     return true;
 }
 

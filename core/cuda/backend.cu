@@ -118,6 +118,10 @@ bool start_film(cuda_state *s, brume_error *err)
     s->job.pixel = static_cast<film_pixel *>(device_take(&s->arena, bytes));
     s->job.count = static_cast<device_counters *>(
         device_take(&s->arena, sizeof(device_counters)));
+    if (s->frame.film->samples > 0)
+        return device_check(cudaMemcpy(s->job.pixel, s->frame.film->pixel,
+                                       bytes, cudaMemcpyHostToDevice),
+                            "uploading the film", err);
     return device_check(cudaMemset(s->job.pixel, 0, bytes), "clearing the film",
                         err);
 }
@@ -216,9 +220,10 @@ bool sample_some(cuda_state *s, brume_error *err)
            device_clock_add(&s->clock, 1, &s->spent.paths);
 }
 
-bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
+bool cuda_sample(void *state, uint32_t *samples, brume_stats *stats,
                  brume_error *err)
 {
+    uint32_t count = *samples;
     cuda_state *s = static_cast<cuda_state *>(state);
     const film *f = s->frame.film;
     stats->uploaded += resident_uploaded(s->kept);
@@ -235,11 +240,13 @@ bool cuda_sample(void *state, uint32_t count, brume_stats *stats,
         if (!sample_some(s, err))
             return false;
         done += n;
-        if (!s->frame.tick(s->frame.user, static_cast<double>(done) / count))
-            return true;
+        if (!s->frame.tick(s->frame.user, static_cast<double>(done) / count)) {
+            *samples = done;
+            break;
+        }
     }
     if (!s->job.pixels.path)
-        stats->paths += film_pixels(f) * count;
+        stats->paths += film_pixels(f) * *samples;
     return device_check(cudaMemcpy(f->pixel, s->job.pixel,
                                    film_pixels(f) * sizeof(film_pixel),
                                    cudaMemcpyDeviceToHost),

@@ -43,4 +43,70 @@ took $?
 exec 9>&-
 exits 75
 
+# Sums of samples are kept, and go on.
+new_case 'a picture that was stopped goes on to the same bytes'
+cat >fog.pov <<'END'
+camera { location <0, 0, -4> look_at 0 }
+light_source { <9, 9, -9> rgb 2 }
+sphere {
+    0, 1
+    hollow pigment { rgbt 1 }
+    interior { media { scattering { 1, rgb 2 } absorption 0.3 } }
+}
+END
+for integrator in path photon progressive; do
+    long="fog.pov +W60 +H45 --spp 900 --photons 20000 --transport full"
+    [ $integrator != progressive ] || long="$long --spp 40"
+    long="$long --integrator $integrator +V"
+    brume $long +Owhole.exr
+    stops=0
+    for pause in 0.3 0.5 0.8; do
+        [ ! -e part.exr ] || break
+        "$BRUME" $long +Opart.exr --resume >printed 2>said &
+        pid=$!
+        sleep $pause
+        kill -TERM $pid 2>/dev/null
+        wait $pid
+        took $?
+        exits 0 75
+        [ $status = 0 ] || stops=$((stops + 1))
+        [ $status = 0 ] || [ -s part.exr.part ] || complain 'nothing is kept'
+    done
+    brume $long +Opart.exr --resume
+    exits 0
+    same whole.exr part.exr
+    lacks part.exr.part
+    [ $stops -gt 0 ] || complain 'it was never stopped'
+    rm part.exr
+done
+
+new_case 'and not from what is kept of another'
+"$BRUME" s.pov +W60 +H45 --spp 4000 +Opart.exr >printed 2>said &
+pid=$!
+wait_until_ready $pid
+sleep 1
+kill -TERM $pid
+wait $pid
+has part.exr.part
+cp part.exr.part kept
+brume s.pov +W60 +H45 --spp 8 +Oeight.exr
+brume s.pov +W60 +H45 --spp 8 +Opart.exr --resume
+same eight.exr part.exr
+lacks part.exr.part
+rm part.exr
+head -c 3000 kept >part.exr.part
+brume s.pov +W60 +H45 --spp 8 +Opart.exr --resume
+same eight.exr part.exr
+
+new_case 'what a killed program left is swept away'
+for file in .brume-1-0.tmp .brume-77-3.tmp .brume-1-0.tmp.mine brume-1-0.tmp; do
+    echo left >$file
+done
+(
+    flock -x 9
+    brume s.pov +W8 +H6 --spp 1 +Osome.png
+) 9>>.brume-77-3.tmp
+lacks .brume-1-0.tmp
+has .brume-77-3.tmp .brume-1-0.tmp.mine brume-1-0.tmp
+
 end_cases
