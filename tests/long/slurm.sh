@@ -44,6 +44,21 @@ exits 0
 all_same step
 is "$(wc -l <step.frames.jsonl)" 48
 
+new_case 'a film whose fields are filtered'
+grids=$ROOT/${B:-build}/tests/bench/grids
+"$grids" . t4-smoke >grids.txt
+cp "$ROOT"/tests/bench/t4-smoke.* "$ROOT"/tests/bench/bench.inc .
+smoke='t4-smoke.ini +KFF48 +W32 +H24 --spp 1 --integrator photon
+    --photons 2000 --field-spacing 0.05 +L.'
+brume $smoke +Owhole
+exits 0
+sbatch --wait --array=1-8 -o s.%a.out "$ROOT/scenes/slurm/array.sh" \
+    $smoke +Osmoke >printed 2>said
+took $?
+exits 0
+all_same smoke
+is "$(wc -l <smoke.frames.jsonl)" 48
+
 # The time limit of a job is whole minutes: it is signalled by hand, then
 # requeues itself.
 new_case 'SIGTERM, and the rest after a requeue'
