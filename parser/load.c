@@ -408,7 +408,7 @@ static bool send_components(struct parser *parser,
 
 /* The cache has all three, or none of them. */
 static bool find_components(struct parser *parser, const char *path,
-                            char key[3][80], struct grid *component[3])
+                            char key[3][88], struct grid *component[3])
 {
     bool all = true;
 
@@ -424,7 +424,7 @@ bool load_velocity(struct parser *parser, const struct data_file *file,
 {
     struct brume_error err = {0};
     struct grid *component[3];
-    char name[64], key[3][80];
+    char name[64], key[3][88];
     bool kept[3] = {true, true, true};
     const char *path = parser_find_file(parser, file->at, file->name,
                                         PARSER_DATA);
@@ -432,7 +432,7 @@ bool load_velocity(struct parser *parser, const struct data_file *file,
     if (!path || !choose_grid(parser, file, path, VDB_VELOCITY, name))
         return false;
     for (int i = 0; i < 3; i++)
-        snprintf(key[i], sizeof key[i], "velocity %d %s", i, name);
+        snprintf(key[i], sizeof key[i], "velocity %c %s", "xyz"[i], name);
     if (!find_components(parser, path, key, component)) {
         if (!vdb_load_velocity(path, name, component, &err))
             return parser_relay(parser, file->at, &err);
