@@ -40,6 +40,17 @@ static size_t folder_length(const char *path)
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
+/* The folder that a path is in; false: its name is too long. */
+static bool name_folder(const char *path, char folder[PATH_MAX])
+{
+    size_t length = folder_length(path);
+    if (length >= PATH_MAX)
+        return false;
+    memcpy(folder, length > 0 ? path : ".", length > 0 ? length : 1);
+    folder[length > 0 ? length : 1] = '\0';
+    return true;
+}
+
 /* A file that is written is locked, so that nobody sweeps it away: false where
  * that happened before it was. Where there are no locks, nobody sweeps. */
 static bool hold(int fd)
@@ -154,14 +165,9 @@ static void sweep_one(int folder, const char *name)
 
 void output_sweep(const char *path)
 {
-    char folder[PATH_MAX] = ".";
-    size_t length = folder_length(path);
-    if (length >= sizeof folder)
+    char folder[PATH_MAX];
+    if (!name_folder(path, folder))
         return;
-    if (length > 0) {
-        memcpy(folder, path, length);
-        folder[length] = '\0';
-    }
     DIR *dir = opendir(folder);
     const struct dirent *entry;
     while (dir && (entry = readdir(dir)))
@@ -184,14 +190,9 @@ static bool flush_to_disk(FILE *stream, bool hurried)
  * synced the file is complete all the same. */
 static void sync_folder(const char *path)
 {
-    char folder[PATH_MAX] = ".";
-    size_t length = folder_length(path);
-    if (length >= sizeof folder)
+    char folder[PATH_MAX];
+    if (!name_folder(path, folder))
         return;
-    if (length > 0) {
-        memcpy(folder, path, length);
-        folder[length] = '\0';
-    }
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0)
         return;

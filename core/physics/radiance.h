@@ -158,7 +158,7 @@ HD bool radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
 
 /* A flight on its way through the lattice. */
 typedef struct {
-    float o[3];             /* in cells                                    */
+    vec3 o;                 /* in cells                                    */
     float inverse[3];       /* of the direction; 0: crosses no plane       */
     float t, end;
     float next[3];          /* distances of the next plane of each axis    */
@@ -172,48 +172,40 @@ HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
     const radiance_lattice *f = &s->field;
     w->t = t0;
     w->end = t1;
+    w->o = vec3_make((o.x - f->origin[0]) / f->side,
+                     (o.y - f->origin[1]) / f->side,
+                     (o.z - f->origin[2]) / f->side);
     for (int i = 0; i < 3; i++) {
-        w->o[i] = (vec3_get(o, i) - f->origin[i]) / f->side;
+        float from = vec3_get(w->o, i);
         w->inverse[i] = walk_inverse(vec3_get(d, i) / f->side);
         float size = (float)(8 * f->bricks[i]);
         if (w->inverse[i] == 0.0f) {
-            if (!(w->o[i] >= 0.0f && w->o[i] < size))
+            if (!(from >= 0.0f && from < size))
                 return false;
             continue;
         }
-        float a = -w->o[i] * w->inverse[i];
-        float b = (size - w->o[i]) * w->inverse[i];
+        float a = -from * w->inverse[i], b = (size - from) * w->inverse[i];
         w->t = hd_max(w->t, hd_min(a, b));
         w->end = hd_min(w->end, hd_max(a, b));
     }
     if (!(w->t < w->end))
         return false;
     for (int i = 0; i < 3; i++) {
-        int c = hd_floor(w->o[i] + w->t * (vec3_get(d, i) / f->side));
+        int c = hd_floor(vec3_get(w->o, i) +
+                         w->t * (vec3_get(d, i) / f->side));
         int last = 8 * f->bricks[i] - 1;
         w->cell[i] = c < 0 ? 0 : c > last ? last : c;
-        w->next[i] = walk_plane(w->o[i], w->inverse[i], w->cell[i]);
+        w->next[i] = walk_plane(vec3_get(w->o, i), w->inverse[i], w->cell[i]);
     }
     return true;
 }
 
-/* Goes over the nearest plane to the next cell; false beyond the lattice.
- * Chosen by values, not by ways: threads stay together. */
+/* Goes over the nearest plane to the next cell; false beyond the lattice. */
 HD bool radiance_step(const flat_scene *s, radiance_walk *w)
 {
-    bool y = !(w->next[0] <= w->next[1]);
-    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
-    int axis = z ? 2 : y ? 1 : 0;
-    float o = z ? w->o[2] : y ? w->o[1] : w->o[0];
-    float inverse = z ? w->inverse[2] : y ? w->inverse[1] : w->inverse[0];
-    int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
-                   (inverse > 0.0f ? 1 : -1);
-    float next = walk_plane(o, inverse, cell);
-    for (int i = 0; i < 3; i++) {
-        w->cell[i] = i == axis ? cell : w->cell[i];
-        w->next[i] = i == axis ? next : w->next[i];
-    }
-    return cell >= 0 && cell < 8 * s->field.bricks[axis];
+    int32_t at;
+    int axis = walk_cross(w->o, w->inverse, w->cell, w->next, &at);
+    return at >= 0 && at < 8 * s->field.bricks[axis];
 }
 
 /* Lays what a walk crosses of its current cell, of a flight o + t d, d of unit

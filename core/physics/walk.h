@@ -97,6 +97,26 @@ HD float walk_plane(float o, float inverse, int32_t cell)
                            : ((float)(cell + (inverse > 0.0f)) - o) * inverse;
 }
 
+/* Goes over the nearest plane of a lattice of unit cells into *at, the new
+ * place along the axis that is returned. Chosen by values, not by ways: threads
+ * stay together. */
+HD int walk_cross(vec3 o, const float *inverse, int32_t *cell, float *next,
+                  int32_t *at)
+{
+    bool y = !(next[0] <= next[1]);
+    bool z = !((y ? next[1] : next[0]) <= next[2]);
+    int axis = z ? 2 : y ? 1 : 0;
+    float from = z ? o.z : y ? o.y : o.x;
+    float slope = z ? inverse[2] : y ? inverse[1] : inverse[0];
+    *at = (z ? cell[2] : y ? cell[1] : cell[0]) + (slope > 0.0f ? 1 : -1);
+    float plane = walk_plane(from, slope, *at);
+    for (int i = 0; i < 3; i++) {
+        cell[i] = i == axis ? *at : cell[i];
+        next[i] = i == axis ? plane : next[i];
+    }
+    return axis;
+}
+
 HD float lattice_next(const lattice_walk *w)
 {
     return hd_min(hd_min(w->next[0], hd_min(w->next[1], w->next[2])), w->leave);
@@ -177,23 +197,12 @@ HD void lattice_begin(const flat_scene *s, lattice_walk *w, int medium,
         lattice_outside(s, w, INFINITY);
 }
 
-/* Over the nearest plane; false: out of the lattice. Chosen by values, not by
- * ways: threads stay together. */
+/* Over the nearest plane; false: out of the lattice. */
 HD bool lattice_cross(lattice_walk *w, const int32_t *cells)
 {
-    bool y = !(w->next[0] <= w->next[1]);
-    bool z = !((y ? w->next[1] : w->next[0]) <= w->next[2]);
-    int axis = z ? 2 : y ? 1 : 0;
-    float o = z ? w->o.z : y ? w->o.y : w->o.x;
-    float inverse = z ? w->inverse[2] : y ? w->inverse[1] : w->inverse[0];
-    int32_t cell = (z ? w->cell[2] : y ? w->cell[1] : w->cell[0]) +
-                   (inverse > 0.0f ? 1 : -1);
-    float next = walk_plane(o, inverse, cell);
-    for (int i = 0; i < 3; i++) {
-        w->cell[i] = i == axis ? cell : w->cell[i];
-        w->next[i] = i == axis ? next : w->next[i];
-    }
-    return cell >= 0 && cell < cells[axis];
+    int32_t at;
+    int axis = walk_cross(w->o, w->inverse, w->cell, w->next, &at);
+    return at >= 0 && at < cells[axis];
 }
 
 /* Goes on from the end of the current piece. */
