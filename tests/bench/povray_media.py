@@ -164,13 +164,13 @@ def write_smoke(path, n=64):
 def timed(command, folder):
     """CPU seconds of a program, of all its threads; where that is little, the
     median of five."""
-    seconds = [once(command, folder)]
+    seconds = [cpu_seconds(command, folder)]
     while seconds[0] < 0.2 and len(seconds) < 5:
-        seconds.append(once(command, folder))
+        seconds.append(cpu_seconds(command, folder))
     return sorted(seconds)[len(seconds) // 2]
 
 
-def once(command, folder):
+def cpu_seconds(command, folder):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

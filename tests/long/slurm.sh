@@ -18,31 +18,29 @@ all_same()
     done
 }
 
+# sbatch_film SCRIPT NAME SWITCH FILM...: as Slurm deals it, it is the whole.
+sbatch_film()
+{
+    script=$1 name=$2 switch=$3
+    shift 3
+    sbatch --wait "$switch" -o "$name.%a.out" "$ROOT/scenes/slurm/$script" \
+        "$@" "+O$name" >printed 2>said
+    took $?
+    exits 0
+    all_same "$name"
+    is "$(wc -l <"$name.frames.jsonl")" 48
+}
+
 brume $film +Owhole
 
 new_case 'a job array of eight tasks'
-sbatch --wait --array=1-8 -o a.%a.out "$ROOT/scenes/slurm/array.sh" \
-    $film +Oarray >printed 2>said
-took $?
-exits 0
-all_same array
-is "$(wc -l <array.frames.jsonl)" 48
+sbatch_film array.sh array --array=1-8 $film
 
 new_case 'an array that counts otherwise'
-sbatch --wait --array=7-11:2 -o b.%a.out "$ROOT/scenes/slurm/array.sh" \
-    $film +Oodd >printed 2>said
-took $?
-exits 0
-all_same odd
-is "$(wc -l <odd.frames.jsonl)" 48
+sbatch_film array.sh odd --array=7-11:2 $film
 
 new_case 'a step of two tasks'
-sbatch --wait --ntasks=2 -o c.out "$ROOT/scenes/slurm/step.sh" $film +Ostep \
-    >printed 2>said
-took $?
-exits 0
-all_same step
-is "$(wc -l <step.frames.jsonl)" 48
+sbatch_film step.sh step --ntasks=2 $film
 
 new_case 'a film whose fields are filtered'
 grids=$ROOT/${B:-build}/tests/bench/grids
@@ -52,12 +50,7 @@ smoke='t4-smoke.ini +KFF48 +W32 +H24 --spp 1 --integrator photon
     --photons 2000 --field-spacing 0.05 +L.'
 brume $smoke +Owhole
 exits 0
-sbatch --wait --array=1-8 -o s.%a.out "$ROOT/scenes/slurm/array.sh" \
-    $smoke +Osmoke >printed 2>said
-took $?
-exits 0
-all_same smoke
-is "$(wc -l <smoke.frames.jsonl)" 48
+sbatch_film array.sh smoke --array=1-8 $smoke
 
 # The time limit of a job is whole minutes: it is signalled by hand, then
 # requeues itself.
