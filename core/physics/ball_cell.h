@@ -18,8 +18,10 @@
 #include "core/physics/path.h"
 
 /* Points of a ball that tell of it: pairs, of which linear densities come out
- * exactly. */
-enum { BALL_PAIRS = 16 };
+ * exactly. Where they differ much, as at the edge of a cloud, up to so many: a
+ * ball whose thick part none of them met would seem to scatter that much more
+ * for each bit of its thickness, and shine in the picture. */
+enum { BALL_PAIRS = 16, BALL_MOST_PAIRS = 256 };
 
 /* Mean densities of the media in a ball. */
 typedef struct {
@@ -73,22 +75,44 @@ HD void ball_add_point(const flat_scene *s, ball_media *b, vec3 x)
     }
 }
 
-/* The media of the field's ball around x. */
-HD ball_media ball_media_at(const flat_scene *s, vec3 x)
+/* The thickness of what has been added up. */
+HD float ball_thickness(const flat_scene *s, const ball_media *b)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < part_bound(b->count); i++)
+        sum += radiance_thickness(&s->media[b->medium[part_place(i)]],
+                                  b->density[part_place(i)]);
+    return sum;
+}
+
+/* Whether the mean of n pairs is good to a tenth. */
+HD bool ball_is_known(int n, float sum, float squares)
+{
+    return (float)n * squares - sum * sum <= 0.01f * (float)(n - 1) * sum * sum;
+}
+
+/* The media of the field's ball around x. `surely`: something is known to
+ * scatter in it. */
+HD ball_media ball_media_at(const flat_scene *s, vec3 x, bool surely)
 {
     ball_media b;
+    int n = 0, most = surely ? BALL_MOST_PAIRS : BALL_PAIRS;
+    float sum = 0.0f, squares = 0.0f;
     b.count = 0;
-    b.thickness = 0.0f;
-    for (int k = 0; k < 2 * BALL_PAIRS; k++) {
-        float r = k & 1 ? -s->field.radius : s->field.radius;
-        ball_add_point(s, &b, vec3_mad(x, r, ball_offset(k / 2)));
-    }
+    do {
+        vec3 off = ball_offset(n++);
+        ball_add_point(s, &b, vec3_mad(x, s->field.radius, off));
+        ball_add_point(s, &b, vec3_mad(x, -s->field.radius, off));
+        float now = ball_thickness(s, &b), pair = now - sum;
+        sum = now;
+        squares += pair * pair;
+    } while (n < BALL_PAIRS ||
+             (n < most && (!(sum > 0.0f) || !ball_is_known(n, sum, squares))));
     for (int i = 0; i < part_bound(b.count); i++) {
         rgb *density = &b.density[part_place(i)];
-        *density = rgb_scale(*density, 0.5f / (float)BALL_PAIRS);
-        b.thickness += radiance_thickness(
-            &s->media[b.medium[part_place(i)]], *density);
+        *density = rgb_scale(*density, 0.5f / (float)n);
     }
+    b.thickness = ball_thickness(s, &b);
     return b;
 }
 
@@ -220,7 +244,7 @@ HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells)
     if (!events && !births)
         return;
     vec3 x = radiance_middle(s, brick, i);
-    ball_media b = ball_media_at(s, x);
+    ball_media b = ball_media_at(s, x, true);
     float scale = b.thickness > 0.0f ? 1.0f / b.thickness : 0.0f;
     for (int c = 0; c < 3; c++)
         out[c] *= scale;

@@ -1,6 +1,7 @@
 /* Gathering by balls: pictures against closed forms and the path tracer's, in
  * media whose density changes within a ball. */
 #include "tests/unit/truth.h"
+#include "core/physics/ball_cell.h"
 #include "core/physics/glow.h"
 #include "core/prepare.h"
 
@@ -309,9 +310,48 @@ static void photon_ball__voxels_have_their_share_of_births(void **state)
     brume_scene_free(s);
 }
 
+/* Balls around a heap as large as a voxel or two: what is in them beside the
+ * mean of many places, the ball's own 2 x 16 of which mostly miss it. */
+static void photon_ball__finds_what_is_thick(void **state)
+{
+    (void)state;
+    enum { PLACES = 100000, BALLS = 60 };
+    brume_scene *s = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0,
+                                 0.45);
+    struct brume_medium m = truth_medium(0.0, 1.0, 0.0);
+    m.density[0] = add_heap(s, 2.0);
+    m.densities = 1;
+    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    struct prepare job = {.scene = s, .threads = 1};
+    struct flat *flat = prepare_scene(&job, truth_error());
+    assert_non_null(flat);
+    flat_scene v = flat->view;
+    v.field.radius = 0.4f * (float)flat->unit;
+    for (int i = 0; i < BALLS; i++) {
+        double sum = 0.0;
+        rng random = rng_make(1, 0, 0, (uint64_t)i);
+        vec3 x = vec3_scale(ball_offset(i), 0.9f * v.field.radius);
+        for (int k = 0; k < PLACES; k++) {
+            float z = rng_float(&random), a = rng_float(&random);
+            float r = cbrtf(rng_float(&random)) * v.field.radius;
+            vec3 p = vec3_mad(x, r, warp_sphere(z, a));
+            field_point at = field_point_make(&v, v.media[0].lead, p);
+            sum += (double)radiance_thickness(
+                       &v.media[0], medium_density(&v, &v.media[0], &at)) /
+                   PLACES;
+        }
+        double found = (double)ball_media_at(&v, x, true).thickness;
+        if (!(found > 0.6 * sum && found < 1.6 * sum))
+            fail_msg("ball %d: %g of %g", i, found, sum);
+    }
+    flat_free(flat);
+    brume_scene_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photon_ball__finds_what_is_thick),
         cmocka_unit_test(photon_ball__births_light_a_sphere),
         cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
         cmocka_unit_test(photon_ball__cells_take_noise_and_nothing_else),
