@@ -4,6 +4,10 @@
  *   compare relrmse A REF          prints the error of A
  *   compare mean A X0 Y0 X1 Y1     prints the mean of R, G and B over a part,
  *                                  half open, in pixels
+ *   compare judge REF REF2 A B
+ *       Of two independent pictures made alike and two independent references:
+ *       what is theirs of the difference and what is noise, as JSON; see
+ *       judge.h.
  *   compare bias REF SPP RUN_SPP RUN...
  *       Are the runs, independent and of RUN_SPP samples a pixel, pictures of
  *       what REF, of SPP samples, shows? Prints the worst tile's t and the
@@ -15,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "lib/exr.h"
+#include "tests/tools/judge.h"
 
 /* Seeds are fixed, so a test that passes does so always; the bound is for
  * the change that makes other random choices. */
@@ -119,6 +124,26 @@ static int print_relrmse(const char *path, const char *path_ref)
     printf("%.6f\n", sqrt(sum / (3 * (double)pixels)));
     exr_free(p);
     exr_free(ref);
+    return 0;
+}
+
+static int print_judged(char *const path[4])
+{
+    struct exr_picture *p[4];
+    struct judged_plane plane[4];
+    struct judged out;
+    for (int i = 0; i < 4; i++) {
+        p[i] = load(path[i]);
+        need_same_size(p[i], p[0]);
+        plane[i] = (struct judged_plane){
+            p[i]->width,
+            p[i]->height,
+            {exr_plane(p[i], "R"), exr_plane(p[i], "G"), exr_plane(p[i], "B")}};
+    }
+    judge(plane, &out);
+    judge_print(&out);
+    for (int i = 0; i < 4; i++)
+        exr_free(p[i]);
     return 0;
 }
 
@@ -240,10 +265,12 @@ int main(int argc, char **argv)
         return print_relrmse(argv[2], argv[3]);
     if (!strcmp(what, "mean") && argc == 7)
         return print_mean(argv[2], argv + 3);
+    if (!strcmp(what, "judge") && argc == 6)
+        return print_judged(argv + 2);
     if (!strcmp(what, "bias") && argc >= 7 && argc - 5 <= MAX_RUNS)
         return print_bias(argv[2], atof(argv[3]), atof(argv[4]), argv + 5,
                           argc - 5);
-    fprintf(stderr, "usage: compare same|relrmse|mean|bias ... "
+    fprintf(stderr, "usage: compare same|relrmse|mean|judge|bias ... "
                     "(see tests/tools/compare.c)\n");
     return 2;
 }
