@@ -32,9 +32,12 @@ uint64_t filter_bytes(const struct filter_field *field);
 struct filter_scratch {
     struct filter_stats *stats[2];
     struct filter_places *places;
+    struct filter_common *common[2];
+    struct filter_weights *weights;
     struct filter_side *side;
     struct filter_desk *desk;
-    size_t stats_room[2], places_room, side_room, desk_room;
+    size_t stats_room[2], places_room, common_room[2], weights_room, side_room,
+        desk_room;
 };
 void filter_scratch_release(struct filter_scratch *scratch);
 

@@ -10,7 +10,12 @@
  *
  * Where media have a velocity frames are judged twice: as they are, since a
  * flow may stand still in space, and where the media took what is in them; for
- * each block those that differ less are taken. */
+ * each block those that differ less are taken.
+ *
+ * Where noise hides what changes such weights are even, and blur it. How much
+ * of the detail they lose as a whole shows all the same (filter_detail.h):
+ * where that is more than 2 % of its energy they are changed until it is not,
+ * the farthest becoming negative. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +30,11 @@
 #define MARGIN 1.2f
 #define MARGIN_OF_MEAN 10.0f
 
+/* How many times its chance error one way of comparing must be better by than
+ * the other where that was the better one as a whole; few photons that are near
+ * each other would choose by their noise, and the choice would keep it. */
+#define DOUBT 8.0f
+
 /* The part of a frame's variance that is left where its cells are interpolated,
  * which is 0.3 of independent ones at random places. */
 #define MOVED_PART 0.6f
@@ -34,14 +44,22 @@ enum { MIDDLE = FILTER_MIDDLE, OTHERS = FILTER_OTHERS };
 
 struct adapt {
     struct filter_judge judge;
+    size_t bricks;
     float noise[BRUME_MAX_TAPS];
-    struct filter_desk *desk; /* a thread's */
+    float lost[2][BRUME_MAX_REACH + 1]; /* of detail: as they are, moved */
+    struct filter_weights *weights;     /* of each brick                 */
+    struct filter_desk *desk;           /* a thread's                    */
+};
+
+/* Of a brick's blocks, and whether these are taken where they were. */
+struct filter_weights {
+    float weight[BRUME_MAX_TAPS][FILTER_BLOCKS];
+    bool moved[FILTER_BLOCKS];
 };
 
 struct filter_desk {
     struct filter_stats near[2][FILTER_BLOCKS]; /* as they are, moved */
     struct filter_stats plane[24];
-    float weight[2][BRUME_MAX_TAPS][FILTER_BLOCKS];
     struct filter_room room;
 };
 
@@ -327,15 +345,29 @@ static float differ(const struct adapt *a, const struct filter_stats *s,
     return count > 0.0f ? sum / count : INFINITY;
 }
 
+/* By how much what a block's surroundings differ by in one way must be less
+ * than in the other, as a part of their noise, to be believed: more where few
+ * photons came. */
+static float doubt(const struct filter_stats *s, float level, float noise)
+{
+    float deposits = s->cells * level / noise;
+    return DOUBT * noise * level / sqrtf(deposits + 1.0f);
+}
+
+/* What was taken along a velocity is believed to have been, unless as a whole
+ * it has lost twice what it does in place. */
 static bool is_better_moved(const struct adapt *a, const struct filter_desk *d,
                             int i)
 {
-    float move[OTHERS];
+    enum { AT = BRUME_MAX_REACH / 2 };
+    float move[OTHERS], noise = larger(a->noise[MIDDLE], 1e-30f);
     const struct filter_stats *s = &d->near[0][i];
     find_moves(s, move);
     float level = pool(a, s, move, 0.0f, true);
+    float slack = doubt(s, level, noise);
+    bool moves = 2.0f * a->lost[0][AT] >= a->lost[1][AT];
     return differ(a, &d->near[1][i], level, MOVED_PART) <
-           differ(a, s, level, 1.0f);
+           differ(a, s, level, 1.0f) + (moves ? slack : -slack);
 }
 
 /* ---- bricks ------------------------------------------------------------- */
@@ -360,34 +392,70 @@ static void mix_frame(const float *restrict cells, int numbers,
     }
 }
 
-static bool is_used(const float weight[FILTER_BLOCKS])
+/* A frame's weights of those blocks that are moved, or are not; false: it has
+ * none. */
+static bool choose_blocks(const struct filter_weights *w, bool moved, int k,
+                          float weight[FILTER_BLOCKS])
 {
-    for (int i = 0; i < FILTER_BLOCKS; i++)
-        if (weight[i] > 0.0f)
-            return true;
-    return false;
+    bool any = false;
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        weight[i] = w->moved[i] == moved ? w->weight[k][i] : 0.0f;
+        any = any || weight[i] != 0.0f;
+    }
+    return any;
 }
 
-static void mix_brick(const struct adapt *a, size_t slot, const int corner[3],
-                      struct filter_desk *d, float *out)
+static void keep_detail(const struct adapt *a, struct filter_weights *w)
 {
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        float weight[BRUME_MAX_TAPS];
+        for (int k = 0; k < BRUME_MAX_TAPS; k++)
+            weight[k] = w->weight[k][i];
+        filter_detail_keep(a->lost[w->moved[i]], weight);
+        for (int k = 0; k < BRUME_MAX_TAPS; k++)
+            w->weight[k][i] = weight[k];
+    }
+}
+
+static void mix_brick(void *context, size_t index, int thread)
+{
+    const struct adapt *a = context;
+    const struct flat *flat = a->judge.flat;
+    const radiance_lattice *f = &flat->view.field;
+    struct filter_desk *d = &a->desk[thread];
+    int32_t slot = flat->radiance_slots[index];
     struct filter_brick brick;
-    int numbers = a->judge.flat->view.field.numbers;
-    memset(out, 0, FILTER_CELLS * (size_t)numbers * sizeof *out);
+    int corner[3];
+    if (slot < 0)
+        return;
+    struct filter_weights *w = &a->weights[slot];
+    size_t size = FILTER_CELLS * (size_t)f->numbers;
+    float *out = flat->radiance + (size_t)slot * size;
+    float weight[FILTER_BLOCKS];
+    filter_corner(f, index, corner);
+    keep_detail(a, w);
+    memset(out, 0, size * sizeof *out);
     for (int j = 0; j < 2; j++)
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
-            if (is_used(d->weight[j][k]) &&
-                filter_load(&a->judge, k, j, slot, corner, &d->room, &brick))
-                mix_frame(brick.cells, numbers, d->weight[j][k], out);
+            if (choose_blocks(w, j, k, weight) &&
+                filter_load(&a->judge, k, j, (size_t)slot, corner, &d->room,
+                            &brick))
+                mix_frame(brick.cells, f->numbers, weight, out);
 }
 
 /* Weights of a brick's blocks. */
-static void weigh_brick(const struct adapt *a, int32_t slot,
-                        const int corner[3], struct filter_desk *d)
+static void weigh_brick(void *context, size_t index, int thread)
 {
+    const struct adapt *a = context;
+    const struct flat *flat = a->judge.flat;
     const struct filter_stats *around[27];
-    int modes = a->judge.places ? 2 : 1;
-    memset(d->weight, 0, sizeof d->weight);
+    struct filter_desk *d = &a->desk[thread];
+    int32_t slot = flat->radiance_slots[index];
+    int corner[3], modes = a->judge.places ? 2 : 1;
+    if (slot < 0)
+        return;
+    struct filter_weights *w = &a->weights[slot];
+    filter_corner(&flat->view.field, index, corner);
     for (int j = 0; j < modes; j++) {
         find_around(a, j, (int[3]){corner[0] / 8, corner[1] / 8, corner[2] / 8},
                     around);
@@ -399,26 +467,62 @@ static void weigh_brick(const struct adapt *a, int32_t slot,
                                          (size_t)slot * FILTER_BLOCKS + i;
         float weight[BRUME_MAX_TAPS];
         find_weights(a, &d->near[moved][i], own, weight);
+        w->moved[i] = moved;
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
-            d->weight[moved][k][i] = weight[k];
+            w->weight[k][i] = weight[k];
     }
 }
 
-static void adapt_brick(void *context, size_t index, int thread)
+/* How fast the detail changes, as it is and moved, of frames that count by
+ * their weights. */
+static void find_lost(struct adapt *a, const double weight[BRUME_MAX_TAPS])
 {
-    const struct adapt *a = context;
+    for (int j = 0; j < (a->judge.places ? 2 : 1); j++)
+        filter_detail_fit(a->judge.common[j], a->bricks, weight, a->lost[j]);
+}
+
+/* Squares of the mean weights of all blocks, so that frames of which hardly
+ * any block is used count for nothing. */
+static void square_weights(const struct adapt *a, double out[BRUME_MAX_TAPS])
+{
+    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+        double mean = 0.0;
+        for (size_t b = 0; b < a->bricks; b++)
+            for (int i = 0; i < FILTER_BLOCKS; i++)
+                mean += (double)a->weights[b].weight[k][i];
+        mean /= (double)a->bricks * FILTER_BLOCKS;
+        out[k] = mean * mean;
+    }
+}
+
+static bool take_room(struct adapt *a, int threads,
+                      struct filter_scratch *scratch, struct brume_error *err)
+{
+    struct filter_desk *desk = memory_grow(scratch->desk, &scratch->desk_room,
+                                           (size_t)threads, sizeof *desk, err);
+    scratch->desk = desk ? desk : scratch->desk;
+    struct filter_weights *weights = memory_grow(
+        scratch->weights, &scratch->weights_room, a->bricks, sizeof *weights,
+        err);
+    scratch->weights = weights ? weights : scratch->weights;
+    a->desk = desk;
+    a->weights = weights;
+    return desk && weights;
+}
+
+/* Weights by how blocks differ; then how fast the detail of those frames
+ * changes that have weights, and what they may be for that. */
+static void adapt_field(struct adapt *a, int threads)
+{
     const struct flat *flat = a->judge.flat;
-    const radiance_lattice *f = &flat->view.field;
-    struct filter_desk *d = &a->desk[thread];
-    int32_t slot = flat->radiance_slots[index];
-    int corner[3];
-    if (slot < 0)
-        return;
-    filter_corner(f, index, corner);
-    weigh_brick(a, slot, corner, d);
-    mix_brick(a, (size_t)slot, corner, d,
-              flat->radiance +
-                  (size_t)slot * FILTER_CELLS * (size_t)f->numbers);
+    double weight[BRUME_MAX_TAPS];
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        weight[k] = a->judge.has[k] ? 1.0 : 0.0;
+    find_lost(a, weight);
+    parallel_for(threads, flat->radiance_slots_count, weigh_brick, a, NULL);
+    square_weights(a, weight);
+    find_lost(a, weight);
+    parallel_for(threads, flat->radiance_slots_count, mix_brick, a, NULL);
 }
 
 bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
@@ -437,12 +541,10 @@ bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         a.noise[k] = larger(a.noise[k], 1e-3f * a.noise[MIDDLE]);
     threads = threads > 0 ? threads : thread_processors();
-    a.desk = memory_grow(scratch->desk, &scratch->desk_room, (size_t)threads,
-                         sizeof *a.desk, err);
-    scratch->desk = a.desk ? a.desk : scratch->desk;
-    bool good = a.desk && filter_judge(&a.judge, threads, scratch, err);
-    if (good)
-        parallel_for(threads, flat->radiance_slots_count, adapt_brick, &a,
-                     NULL);
+    a.bricks = flat->radiance_count / (FILTER_CELLS * (size_t)f->numbers);
+    bool good = take_room(&a, threads, scratch, err) &&
+                filter_judge(&a.judge, threads, scratch, err);
+    if (good && a.bricks > 0)
+        adapt_field(&a, threads);
     return good;
 }

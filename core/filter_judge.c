@@ -18,6 +18,7 @@ struct side {
 /* The middle frame, the one before and the one after. */
 struct filter_side {
     struct side of[3];
+    struct filter_detail detail;
 };
 
 struct desk {
@@ -158,6 +159,7 @@ static void judge_brick(void *context, size_t index, int thread)
     const struct desk *desk = context;
     const struct filter_judge *judge = desk->judge;
     struct side *side = desk->side[thread].of;
+    struct filter_detail *detail = &desk->side[thread].detail;
     int32_t slot = judge->flat->radiance_slots[index];
     int corner[3];
     if (slot < 0)
@@ -167,19 +169,26 @@ static void judge_brick(void *context, size_t index, int thread)
                                (size_t)slot * FILTER_BLOCKS;
     memset(out, 0, FILTER_BLOCKS * sizeof *out);
     load(desk, FILTER_MIDDLE, (size_t)slot, corner, &side[0]);
+    struct filter_common *common = &judge->common[desk->moved][slot];
+    memset(common, 0, sizeof *common);
     if (!side[0].any)
         return;
     judge_middle(&side[0], out);
+    filter_detail_begin(detail);
+    filter_detail_add(detail, FILTER_MIDDLE, side[0].color, side[0].there);
     for (int m = 1; m <= judge->reach; m++) {
         for (int j = 1; j <= 2; j++) {
             int k = FILTER_MIDDLE + (j == 1 ? -m : m);
             load(desk, k, (size_t)slot, corner, &side[j]);
-            if (side[j].any)
-                judge_other(&side[0], &side[j], filter_other(k), out);
+            if (!side[j].any)
+                continue;
+            judge_other(&side[0], &side[j], filter_other(k), out);
+            filter_detail_add(detail, k, side[j].color, side[j].there);
         }
         if (side[1].any && side[2].any)
             judge_pair(side, m, out);
     }
+    filter_detail_sum(detail, judge->has, judge->frames, common);
 }
 
 /* Judges frames as they are, or moved. */
@@ -188,14 +197,20 @@ static bool judge_all(struct filter_judge *judge, bool moved, int threads,
 {
     const struct flat *flat = judge->flat;
     size_t numbers = (size_t)flat->view.field.numbers;
-    size_t blocks = flat->radiance_count / (numbers * FILTER_CELLS) *
-                    FILTER_BLOCKS;
+    size_t bricks = flat->radiance_count / (numbers * FILTER_CELLS);
+    size_t blocks = bricks * FILTER_BLOCKS;
     struct filter_stats *stats = memory_grow(scratch->stats[moved],
                                              &scratch->stats_room[moved],
                                              blocks, sizeof *stats, err);
-    if (!stats)
+    struct filter_common *common = memory_grow(scratch->common[moved],
+                                               &scratch->common_room[moved],
+                                               bricks, sizeof *common, err);
+    scratch->stats[moved] = stats ? stats : scratch->stats[moved];
+    scratch->common[moved] = common ? common : scratch->common[moved];
+    if (!stats || !common)
         return false;
-    judge->stats[moved] = scratch->stats[moved] = stats;
+    judge->stats[moved] = stats;
+    judge->common[moved] = common;
     struct desk desk = {judge, moved, scratch->side};
     parallel_for(threads, flat->radiance_slots_count, judge_brick, &desk, NULL);
     return true;
@@ -209,6 +224,10 @@ bool filter_judge(struct filter_judge *judge, int threads,
     if (!side)
         return false;
     scratch->side = side;
+    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+        judge->has[k] = judge->view[k].field != NULL;
+        judge->frames += judge->has[k];
+    }
     return filter_follow(judge, threads, scratch, err) &&
            judge_all(judge, false, threads, scratch, err) &&
            (!judge->places || judge_all(judge, true, threads, scratch, err));
@@ -219,6 +238,9 @@ void filter_scratch_release(struct filter_scratch *s)
     free(s->stats[0]);
     free(s->stats[1]);
     free(s->places);
+    free(s->common[0]);
+    free(s->common[1]);
+    free(s->weights);
     free(s->side);
     free(s->desk);
     memset(s, 0, sizeof *s);

@@ -2,7 +2,7 @@
  * by block of 2^3 cells. */
 #ifndef CORE_FILTER_JUDGE_H
 #define CORE_FILTER_JUDGE_H
-#include "core/filter_view.h"
+#include "core/filter_detail.h"
 
 enum {
     FILTER_OTHERS = 2 * BRUME_MAX_REACH,    /* frames besides the middle   */
@@ -31,6 +31,9 @@ struct filter_judge {
     struct filter_stats *stats[2];  /* of each block of each brick that is
                                        there: where it is, and where it was;
                                        the second NULL: nothing moves       */
+    struct filter_common *common[2];    /* of each brick, likewise          */
+    bool has[BRUME_MAX_TAPS];       /* the frames that there are            */
+    int frames;
 };
 
 /* Finds where blocks are in other frames, see filter_path.c; false: no memory.

@@ -232,23 +232,21 @@ static void load_around(const struct filter_view *v, const float place[3],
                         struct around *a)
 {
     int low[3], numbers = v->field->lattice.numbers;
-    bool within = true;
     for (int i = 0; i < 3; i++) {
         float whole = floorf(place[i]);
         low[i] = (int)whole;
         a->fraction[i] = place[i] - whole;
-        within = within && (low[i] & 7) < 6;
     }
-    const float *first = cell_at(v->field, low[0], low[1], low[2]);
     a->count = 0;
     for (int z = 0, k = 0; z < 3; z++)
         for (int y = 0; y < 3; y++)
             for (int x = 0; x < 3; x++, k++) {
-                /* Most are in one brick. */
-                a->cell[k] = !within ? cell_at(v->field, low[0] + x, low[1] + y,
-                                               low[2] + z)
-                             : first ? first + (z * 64 + y * 8 + x) * numbers
-                                     : NULL;
+                /* In a brick cells follow each other along x. */
+                bool begins = x == 0 || ((low[0] + x) & 7) == 0;
+                a->cell[k] = begins ? cell_at(v->field, low[0] + x, low[1] + y,
+                                              low[2] + z)
+                             : a->cell[k - 1] ? a->cell[k - 1] + numbers
+                                              : NULL;
                 a->count += a->cell[k] != NULL;
             }
 }
@@ -296,39 +294,44 @@ static void put_around(const struct around *a, int numbers, int block,
     }
 }
 
-static float blend(float a, float b, float t)
+/* Between each number and that so many behind it; more than are asked for,
+ * since a loop without gaps is faster. */
+static inline void blend(const float *restrict from, int count, int behind,
+                         float t, float *restrict to)
 {
-    return a + t * (b - a);
+    for (int i = 0; i < count; i++)
+        to[i] = from[i] + t * (from[i + behind] - from[i]);
 }
 
-/* One number of a block whose surroundings are all there: along x, y, z. */
-static void blend_number(const struct around *a, int number, float out[8])
+/* A block whose surroundings are all there: along x, y, z. */
+static inline void blend_around(const struct around *a, int numbers, int block,
+                                struct filter_room *room)
 {
-    float x[18], y[12];
-    const float *f = a->fraction;
-    for (int i = 0; i < 9; i++) {
-        float p = a->cell[3 * i][number], q = a->cell[3 * i + 1][number];
-        x[2 * i] = blend(p, q, f[0]);
-        x[2 * i + 1] = blend(q, a->cell[3 * i + 2][number], f[0]);
+    float p[27 * FILTER_MAX_NUMBERS], q[26 * FILTER_MAX_NUMBERS];
+    int row = 3 * numbers, layer = 9 * numbers;
+    for (int k = 0; k < 27; k++)
+        for (int i = 0; i < numbers; i++)
+            p[k * numbers + i] = a->cell[k][i];
+    blend(p, 26 * numbers, numbers, a->fraction[0], q);
+    blend(q, 23 * numbers, row, a->fraction[1], p);
+    blend(p, 14 * numbers, layer, a->fraction[2], q);
+    for (int k = 0; k < 8; k++) {
+        const float *from = q + (k & 1) * numbers + (k >> 1 & 1) * row +
+                            (k >> 2) * layer;
+        int cell = cell_of_block(block, k);
+        for (int i = 0; i < numbers; i++)
+            room->cells[cell * numbers + i] = from[i];
+        room->there[cell] = 1.0f;
     }
-    for (int z = 0; z < 3; z++)
-        for (int i = 0; i < 4; i++)
-            y[4 * z + i] = blend(x[6 * z + i], x[6 * z + i + 2], f[1]);
-    for (int i = 0; i < 8; i++)
-        out[i] = blend(y[i], y[i + 4], f[2]);
 }
 
 static void put_whole(const struct around *a, int numbers, int block,
                       struct filter_room *room)
 {
-    float out[8];
-    for (int n = 0; n < numbers; n++) {
-        blend_number(a, n, out);
-        for (int k = 0; k < 8; k++)
-            room->cells[cell_of_block(block, k) * numbers + n] = out[k];
-    }
-    for (int k = 0; k < 8; k++)
-        room->there[cell_of_block(block, k)] = 1.0f;
+    if (numbers == 3)
+        blend_around(a, 3, block, room);
+    else
+        blend_around(a, numbers, block, room);
 }
 
 static bool fill_moved(const struct filter_view *v,

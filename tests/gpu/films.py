@@ -1,0 +1,224 @@
+"""Films and stills on a GPU that are stopped, killed and taken up again, what
+filters of films take there, and what of a film's meshes travels to it; a part
+of tests/gpu/run."""
+import glob
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+
+FOG = """#version 3.7;
+camera { location <0, 0, -4> look_at 0 }
+light_source { <9, 9, -9> rgb 2 }
+sphere { <0.2 * clock, 0, 0>, 1 hollow pigment { rgbt 1 }
+    interior { media { scattering { 1, rgb 6 } absorption 0.1 } } }
+"""
+# Half of its triangles stand still, half turn.
+MESHES = """#version 3.7;
+camera { location <0, 4, -6> look_at 0 }
+light_source { <9, 9, -9> rgb 2 }
+#declare Land = height_field { function 400, 400 { pattern { bumps } }
+    translate -0.5 scale <4, 0.4, 4> }
+object { Land pigment { rgb 0.6 } }
+object { Land scale 0.3 rotate 90 * clock * y translate y
+    pigment { rgb 0.9 } }
+"""
+FRAMES = 4
+
+
+class Films:
+    """The program, a scratch folder and the folder of grids and scenes."""
+
+    def __init__(self, brume, room, bench):
+        self.brume, self.room, self.bench = brume, room, bench
+
+    def path(self, name):
+        return os.path.join(self.room, name)
+
+    def command(self, scene, name, words):
+        return [self.brume, scene, "+O" + self.path(name + ".exr"), "--backend", "cuda",
+                "--resume", "--stats", self.path("films.json"),
+                "+L" + self.bench, *words]
+
+    def begin(self, *command):
+        return subprocess.Popen(self.command(*command),
+                                stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE, text=True)
+
+    def finish(self, *command):
+        """Its seconds and frames; ends the test if it fails."""
+        start = time.monotonic()
+        run = self.begin(*command)
+        said = run.communicate()[1]
+        if run.returncode != 0:
+            raise SystemExit(f"status {run.returncode}\n{said}")
+        seconds = time.monotonic() - start
+        with open(self.path("films.json")) as f:
+            return seconds, json.load(f)["frames"]
+
+    def stop(self, after, *command):
+        """Exit code of a run that is told to end after so many seconds, and
+        the milliseconds it takes to."""
+        run = self.begin(*command)
+        time.sleep(after)
+        start = time.monotonic()
+        run.send_signal(signal.SIGTERM)
+        run.communicate()
+        return run.returncode, round(1e3 * (time.monotonic() - start))
+
+    def forget(self, name):
+        for path in glob.glob(self.path(name + "*")):
+            os.remove(path)
+
+    def pictures(self, name):
+        return sorted(p for p in glob.glob(self.path(name + "*.exr")))
+
+    def same(self, name, whole):
+        """Pictures of one run that are those of another, and all there are."""
+        names = self.pictures(name)
+        return sum(read(p) == read(p.replace(name, whole, 1))
+                   for p in names), len(names)
+
+    def scene(self, name, text):
+        path = self.path(name + ".pov")
+        with open(path, "w") as f:
+            f.write(text)
+        return path
+
+
+def read(path):
+    with open(path, "rb") as f:
+        return f.read()
+
+
+def words_of(integrator, film, spp):
+    words = ["+W640", "+H480", "--integrator", integrator, "--transport",
+             "full", "--photons", "1000000", "--spp", str(spp)]
+    return words + ([f"+KFF{FRAMES}"] if film else [])
+
+
+def enough_samples(films, scene, integrator, film):
+    """So many that a run takes some seconds."""
+    spp = {}
+    for n in (64, 512):
+        films.forget("tried")
+        spp[n], _ = films.finish(scene, "tried", words_of(integrator, film, n))
+    each = max((spp[512] - spp[64]) / 448, 1e-5)
+    return min(max(int((6 - spp[64]) / each) // 2 * 2, 64), 60000)
+
+
+def stop_row(films, scene, integrator, film):
+    """Told to end in the middle, three times, then finished."""
+    words = words_of(integrator, film,
+                     enough_samples(films, scene, integrator, film))
+    films.forget("whole")
+    films.forget("part")
+    seconds, _ = films.finish(scene, "whole", words)
+    codes, worst, kept = [], 0, 0
+    for share in (0.35, 0.45, 0.4):
+        code, ms = films.stop(share * seconds, scene, "part", words)
+        codes.append(code)
+        worst = max(worst, ms)
+        kept += len(glob.glob(films.path("part*.part")))
+    films.finish(scene, "part", words)
+    good, count = films.same("part", "whole")
+    wanted = FRAMES if film else 1
+    return {"what": ("film" if film else "still") + ", SIGTERM",
+            "how": integrator, "seconds": round(seconds, 2),
+            "codes": " ".join(map(str, codes)), "worst ms": worst,
+            "kept": kept, "same": f"{good} of {wanted}",
+            "passed": good == count == wanted and codes[0] == 75 and
+            set(codes) <= {0, 75} and worst < 5000 and kept > 0}
+
+
+def trace_row(films, scene):
+    """Told to end while photons fly that would take a minute."""
+    films.forget("part")
+    words = words_of("photon", False, 4)
+    words[words.index("1000000")] = "20000000000"
+    code, ms = films.stop(3, scene, "part", words)
+    left = films.pictures("part")
+    return {"what": "photons, SIGTERM", "how": "photon", "codes": str(code),
+            "worst ms": ms, "passed": code == 75 and ms < 5000 and not left}
+
+
+def kill_row(films, scene, integrator):
+    """Killed at ten moments: what there is is whole."""
+    words = words_of(integrator, True, 256)
+    films.forget("whole")
+    films.forget("part")
+    seconds, _ = films.finish(scene, "whole", words)
+    torn, kills, moments = 0, 0, random.Random(1)
+    for _ in range(10):
+        run = films.begin(scene, "part", words)
+        time.sleep((0.3 + 0.6 * moments.random()) * seconds)
+        run.kill()
+        run.communicate()
+        kills += run.returncode != 0
+        good, count = films.same("part", "whole")
+        torn += count - good
+        if run.returncode == 0:
+            films.forget("part")
+    films.finish(scene, "part", words)
+    good, count = films.same("part", "whole")
+    return {"what": "film, SIGKILL", "how": integrator,
+            "seconds": round(seconds, 2), "kept": kills,
+            "same": f"{good} of {FRAMES}", "torn": torn,
+            "passed": good == count == FRAMES and torn == 0 and kills > 2}
+
+
+def frame_seconds(frame):
+    times, photons = frame["seconds"], frame["photons"]
+    return (times["prepare"] + times["render"] + photons["seconds"] +
+            photons["seconds_filter"])
+
+
+def filter_row(films, temporal, aim):
+    """Of t4-smoke at its published size, frames that have all neighbours."""
+    scene = films.path("smoke.ini")
+    with open(scene, "w") as f:
+        f.write("Input_File_Name = " + os.path.join(
+            os.path.dirname(os.path.dirname(os.path.abspath(__file__))),
+            "bench", "t4-smoke.pov"))
+    films.forget("whole")
+    _, frames = films.finish(
+        scene, "whole", ["+KFI1", "+KFF30", "+SF12", "+EF17", "+W640", "+H480",
+                         "--integrator", "photon", "--photons", "100000",
+                         "--spp", "16", "--temporal", temporal])
+    filters = sum(f["photons"]["seconds_filter"] for f in frames[1:])
+    share = filters / sum(frame_seconds(f) for f in frames[1:])
+    return {"what": "filter", "how": temporal,
+            "ms": round(1e3 * filters / (len(frames) - 1), 2),
+            "share %": round(100 * share, 2), "passed": share <= aim}
+
+
+def upload_row(films):
+    """MiB to the device, a frame, when all is there that stands still."""
+    films.forget("whole")
+    _, frames = films.finish(films.scene("meshes", MESHES), "whole",
+                             ["+KFF6", "+W64", "+H48", "--spp", "4",
+                              "--integrator", "path"])
+    sent = [f["uploaded"] / 2**20 for f in frames]
+    later = max(sent[2:])
+    return {"what": "meshes, MiB a frame", "how": "path",
+            "kept": round(sent[0], 1), "ms": round(later, 2),
+            "passed": later < 0.62 * sent[0]}
+
+
+def rows(brume, room, bench):
+    films = Films(brume, room, bench)
+    scene = films.scene("fog", FOG)
+    out = [stop_row(films, scene, integrator, film)
+           for film in (False, True) for integrator in ("path", "photon")]
+    out.append(trace_row(films, scene))
+    out += [kill_row(films, scene, integrator)
+            for integrator in ("path", "photon")]
+    if os.path.exists(os.path.join(bench, "t4-smoke_30.vdb")):
+        out += [filter_row(films, temporal, aim) for temporal, aim in
+                (("3", 0.05), ("5", 0.05), ("adaptive", 0.1))]
+    out.append(upload_row(films))
+    return [{key: row.get(key, "") for key in
+             ("what", "how", "seconds", "codes", "worst ms", "kept", "same",
+              "torn", "ms", "share %", "passed")} for row in out]
