@@ -9,6 +9,9 @@ namespace
 const int block_width = 8, block_height = 4; /* a warp a tile */
 const int block_size = block_width * block_height;
 /* Blocks that a multiprocessor must have room for: 128 registers a thread. */
+#ifndef LINES_BLOCKS
+#define LINES_BLOCKS 16
+#endif
 const int blocks_at_once = 16;
 
 /* Tiles of a block of paths, one below the other. */
@@ -36,16 +39,40 @@ __device__ __forceinline__ void add_counters(device_counters *sum,
 #undef X
 }
 
-__global__ void __launch_bounds__(block_size, blocks_at_once)
+/* Whether most threads of a warp, of those whose lines have not ended, are on
+ * their way: the others wait until it is worth while to end lines and begin
+ * the next ones. */
+__device__ __forceinline__ bool lines_step(const pixel_liner *l)
+{
+    int on = __popc(__ballot_sync(~0u, l->next == PIXEL_STEPS));
+    int all = __popc(__ballot_sync(~0u, l->next != PIXEL_ENDS));
+    return on > 0 && 4 * on >= 3 * all;
+}
+
+/* The threads of a warp take steps together, whichever line each is at. */
+__global__ void __launch_bounds__(block_size, LINES_BLOCKS)
 sample_lines(const __grid_constant__ sample_job job)
 {
+    const flat_scene *s = &job.scene;
     int x, y;
     size_t at;
-    if (!find_pixel(&job, &x, &y, &at))
-        return;
+    bool is = find_pixel(&job, &x, &y, &at);
     track_counters count = {};
-    pixel_lines_run(&job.scene, &job.pixels, x, y, job.first, job.samples,
-                    &job.pixel[at], &count);
+    pixel_liner l;
+    pixel_lines_begin(&l, x, y, job.first, job.samples);
+    if (!is)
+        l.next = PIXEL_ENDS;
+    while (__any_sync(~0u, l.next != PIXEL_ENDS)) {
+        if (l.next == PIXEL_LANDS)
+            pixel_land(s, &l, &job.pixel[at], &count);
+        if (l.next == PIXEL_TAKES)
+            pixel_take(s, &job.pixels, &l);
+        if (l.next == PIXEL_SEEKS)
+            pixel_seek(s, &l);
+        while (lines_step(&l))
+            if (l.next == PIXEL_STEPS)
+                pixel_step(s, &l);
+    }
     add_counters(job.count, &count);
 }
 

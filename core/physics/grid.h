@@ -25,34 +25,67 @@ HD bool grid_clipped(const flat_grid *g, vec3 p)
            p.z < g->clip_min[2] || p.z > g->clip_max[2];
 }
 
-/* Value at a point of index space. */
-HD float grid_lookup(const flat_scene *s, const flat_grid *g, vec3 p)
+/* A point in the grid's own space, in which voxels begin at whole numbers.
+ * Local before conversion, so that huge points compare as outside. */
+HD vec3 grid_local(const flat_grid *g, vec3 p)
 {
-    if (g->clip && grid_clipped(g, p))
-        return 0.0f;
     if (g->nearest)
         p = vec3_add(p, vec3_make(0.5f, 0.5f, 0.5f));
-    /* Local to the grid before conversion, so that huge points compare as
-     * outside; NaN fails every test. */
-    p = vec3_sub(p, vec3_make((float)g->origin[0], (float)g->origin[1],
-                              (float)g->origin[2]));
+    return vec3_sub(p, vec3_make((float)g->origin[0], (float)g->origin[1],
+                                 (float)g->origin[2]));
+}
+
+/* The voxel around a point, or, sample being NULL, the value of all places
+ * around it. */
+typedef struct {
+    const float *sample;    /* that of its lowest corner                   */
+    vec3 corner;
+    float value;
+} grid_voxel;
+
+/* NaN fails every test. */
+HD grid_voxel grid_voxel_at(const flat_scene *s, const flat_grid *g, vec3 p)
+{
+    grid_voxel v;
+    v.sample = 0;
+    v.corner = vec3_make(0.0f, 0.0f, 0.0f);
+    v.value = 0.0f;
     if (!(p.x >= 0.0f && p.x < (float)(8 * g->bricks[0]) && p.y >= 0.0f &&
           p.y < (float)(8 * g->bricks[1]) && p.z >= 0.0f &&
-          p.z < (float)(8 * g->bricks[2])))
-        return s->tiles[g->tile];
+          p.z < (float)(8 * g->bricks[2]))) {
+        v.value = s->tiles[g->tile];
+        return v;
+    }
     int x = (int)p.x, y = (int)p.y, z = (int)p.z;
     uint64_t brick = (uint64_t)(x >> 3) +
         (uint64_t)g->bricks[0] * ((uint64_t)(y >> 3) +
                                   (uint64_t)g->bricks[1] * (uint64_t)(z >> 3));
     int32_t slot = s->slots[g->slot + brick];
-    if (slot < 0)
-        return s->tiles[g->tile + (uint64_t)(-1 - slot)];
-    const float *v = s->voxels +
-        (g->brick + (uint64_t)slot) * BRICK_FLOATS +
-        ((z & 7) * BRICK_SIDE + (y & 7)) * BRICK_SIDE + (x & 7);
-    return g->nearest ? v[0]
-                      : grid_trilinear(v, p.x - (float)x, p.y - (float)y,
-                                       p.z - (float)z);
+    if (slot < 0) {
+        v.value = s->tiles[g->tile + (uint64_t)(-1 - slot)];
+        return v;
+    }
+    v.sample = s->voxels + (g->brick + (uint64_t)slot) * BRICK_FLOATS +
+               ((z & 7) * BRICK_SIDE + (y & 7)) * BRICK_SIDE + (x & 7);
+    v.corner = vec3_make((float)x, (float)y, (float)z);
+    return v;
+}
+
+/* Value at a place from its corner on. */
+HD float grid_inside(const flat_grid *g, const grid_voxel *v, vec3 at)
+{
+    return g->nearest ? v->sample[0]
+                      : grid_trilinear(v->sample, at.x, at.y, at.z);
+}
+
+/* Value at a point of index space. */
+HD float grid_lookup(const flat_scene *s, const flat_grid *g, vec3 p)
+{
+    if (g->clip && grid_clipped(g, p))
+        return 0.0f;
+    p = grid_local(g, p);
+    grid_voxel v = grid_voxel_at(s, g, p);
+    return v.sample ? grid_inside(g, &v, vec3_sub(p, v.corner)) : v.value;
 }
 
 #endif

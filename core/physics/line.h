@@ -27,6 +27,7 @@
 #include "core/physics/glow.h"
 #include "core/physics/radiance.h"
 #include "core/physics/rng.h"
+#include "core/physics/twin.h"
 #include "core/physics/walk.h"
 
 /* The last is the field's. Where there is one more at most, each has a place
@@ -102,14 +103,21 @@ HD void line_add_lattices(line_job *job, const flat_medium *m)
     }
 }
 
-/* The light of the field is read once a cell, at least. */
-HD void line_add_field(line_job *job)
+/* The light of the field is read between planes of the media's voxels, but once
+ * a cell at least: where voxels are larger, at planes of cells too. */
+HD void line_add_field(line_job *job, const flat_medium *m)
 {
+    const float enough = 0.8f;
     const radiance_lattice *f = &job->s->field;
     vec3 o = vec3_sub(job->o, vec3_make(f->origin[0], f->origin[1],
                                         f->origin[2]));
-    line_add_lattice(job, LINE_LATTICES - 1, vec3_scale(o, 1.0f / f->side),
-                     vec3_scale(job->d, 1.0f / f->side));
+    vec3 d = vec3_scale(job->d, 1.0f / f->side);
+    if (m && m->planes > 0) {
+        const affine *a = &job->s->fields[m->plane_field[0]].to_index;
+        if (vec3_length(affine_vector(a, job->d)) >= enough * vec3_length(d))
+            return;
+    }
+    line_add_lattice(job, LINE_LATTICES - 1, vec3_scale(o, 1.0f / f->side), d);
 }
 
 HD int line_lattices(const line_job *job)
@@ -155,59 +163,143 @@ HD float line_stop(const line_job *job, float t, float t_end)
     return stop > t ? stop : t_end;
 }
 
-/* Radiance per length that the media scatter of the field's light. */
-HD rgb line_scattered(const line_job *job, const flat_medium *m,
-                      const radiance_point *light, rgb density)
+/* Whether a medium of that density scatters of the field's light. */
+HD bool line_scatters(const line_job *job, const flat_medium *m, rgb density)
 {
-    rgb in = radiance_seen(job->s, light, m->phase, m->g,
-                           vec3_scale(job->d, -1.0f));
-    if (job->s->field.lit)
-        in = rgb_add(in, light->lit);
-    return rgb_mul(in, rgb_mul(m->sigma_s, density));
+    return scene_may(MAY_FIELD) && job->scattered && !rgb_is_black(density) &&
+           !rgb_is_black(m->sigma_s);
 }
 
+/* What a medium scatters of the field's light, per line_share. */
+HD rgb line_light(const line_job *job, const flat_medium *m,
+                  const radiance_point *light)
+{
+    if (job->s->field.ball)
+        return light->eye;
+    rgb in = radiance_seen(job->s, light, m->phase, m->g,
+                           vec3_scale(job->d, -1.0f));
+    return job->s->field.lit ? rgb_add(in, light->lit) : in;
+}
+
+HD rgb line_share(const line_job *job, const flat_medium *m, rgb density)
+{
+    return job->s->field.ball ? rgb_gray(radiance_thickness(m, density))
+                              : rgb_mul(m->sigma_s, density);
+}
+
+/* Whether births tell of emission. */
+HD bool line_has_births(const line_job *job)
+{
+    return scene_may(MAY_FIELD) && job->scattered && job->s->field.ball &&
+           job->s->field.births;
+}
+
+/* Whether part i of the walk emits what is asked for. */
+HD bool line_emits(const line_job *job, const media_walk *w, int i)
+{
+    return scene_may(MAY_EMISSION) && job->emission &&
+           walk_part(w, i)->bound.rate != 0.0f;
+}
+
+/* The share of its emission q at p that counts. */
+HD rgb line_glow(const line_job *job, const media_walk *w, int i, rgb q,
+                 vec3 p, float t)
+{
+    if (rgb_is_black(q))
+        return q;
+    return rgb_scale(q, glow_ray_share(job->s, walk_part(w, i)->medium, p, t,
+                                       job->p_dir));
+}
+
+HD bool line_part_empty(const lattice_walk *part)
+{
+    return part->bound.density == 0.0f && part->bound.rate == 0.0f;
+}
+
+/* The field is read where something comes of it alone. */
 HD line_point line_at(const line_job *job, const media_walk *w, float t)
 {
     line_point out;
-    radiance_point light;
-    bool read = false;
+    radiance_point light = radiance_nothing();
+    bool read = false, births = line_has_births(job);
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
-    bool ball = scene_may(MAY_FIELD) && job->scattered && job->s->field.ball;
-    rgb gathered = rgb_gray(0.0f);
-    float births = 1.0f;
-    if (ball) {
-        light = radiance_at(job->s, p, true);
-        gathered = light.eye;
-        births = job->s->field.births ? light.births : 1.0f;
-    }
     for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = walk_medium(job->s, w, i);
-        const majorant_cell *bound = &walk_part(w, i)->bound;
-        if (bound->density == 0.0f && bound->rate == 0.0f)
+        if (line_part_empty(walk_part(w, i)))
             continue;
         field_point x = lattice_point(job->s, walk_part(w, i), p, t);
-        rgb density = medium_density(job->s, m, &x);
+        rgb density = medium_density(job->s, m, &x), q = rgb_gray(0.0f);
         out.sigma_t = rgb_add(out.sigma_t, rgb_mul(m->sigma_t, density));
-        if (ball)
-            out.source = rgb_add(out.source, rgb_scale(gathered,
-                radiance_thickness(m, density)));
-        if (scene_may(MAY_FIELD) && job->scattered && !ball &&
-            !rgb_is_black(density) && !rgb_is_black(m->sigma_s)) {
-            if (!read)
-                light = radiance_at(job->s, p, true);
+        if (line_emits(job, w, i))
+            q = line_glow(job, w, i, medium_source(job->s, m, &x, density), p,
+                          t);
+        bool scatters = line_scatters(job, m, density);
+        if (!read && (scatters || (births && !rgb_is_black(q)))) {
+            light = radiance_at(job->s, p, true);
             read = true;
-            out.source = rgb_add(out.source,
-                                 line_scattered(job, m, &light, density));
         }
-        if (!scene_may(MAY_EMISSION) || !job->emission || bound->rate == 0.0f)
-            continue;
-        rgb q = medium_source(job->s, m, &x, density);
+        if (scatters)
+            out.source = rgb_add(out.source,
+                rgb_mul(line_light(job, m, &light),
+                        line_share(job, m, density)));
         if (!rgb_is_black(q))
-            q = rgb_scale(q, glow_ray_share(job->s, walk_part(w, i)->medium, p,
-                                            t, job->p_dir));
-        q = rgb_scale(q, births);
-        out.source = rgb_add(out.source, q);
+            out.source = rgb_add(out.source,
+                                 births ? rgb_scale(q, light.births) : q);
+    }
+    return out;
+}
+
+typedef struct {
+    line_point a, b;
+} line_twins;
+
+/* The same at two points between planes; the field is read in their middle. */
+HD line_twins line_at_twins(const line_job *job, const media_walk *w, float ta,
+                            float tb)
+{
+    line_twins out;
+    radiance_point light = radiance_nothing();
+    bool read = false, births = line_has_births(job);
+    out.a.sigma_t = out.a.source = rgb_gray(0.0f);
+    out.b = out.a;
+    vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
+    for (int i = 0; i < walk_parts(w); i++) {
+        const lattice_walk *part = walk_part(w, i);
+        const flat_medium *m = walk_medium(job->s, w, i);
+        if (line_part_empty(part))
+            continue;
+        twin_point x;
+        x.a = lattice_point(job->s, part, pa, ta);
+        x.b = lattice_point(job->s, part, pb, tb);
+        twin_rgb density = twin_density(job->s, m, &x), q;
+        q.a = q.b = rgb_gray(0.0f);
+        out.a.sigma_t = rgb_add(out.a.sigma_t, rgb_mul(m->sigma_t, density.a));
+        out.b.sigma_t = rgb_add(out.b.sigma_t, rgb_mul(m->sigma_t, density.b));
+        if (line_emits(job, w, i)) {
+            q = twin_source(job->s, m, &x, &density);
+            q.a = line_glow(job, w, i, q.a, pa, ta);
+            q.b = line_glow(job, w, i, q.b, pb, tb);
+        }
+        bool scatters = line_scatters(job, m, density.a) ||
+                        line_scatters(job, m, density.b);
+        bool emits = !rgb_is_black(q.a) || !rgb_is_black(q.b);
+        if (!read && (scatters || (births && emits))) {
+            light = radiance_at(job->s,
+                                vec3_mad(job->o, 0.5f * (ta + tb), job->d),
+                                true);
+            read = true;
+        }
+        if (scatters) {
+            rgb in = line_light(job, m, &light);
+            out.a.source = rgb_add(out.a.source,
+                rgb_mul(in, line_share(job, m, density.a)));
+            out.b.source = rgb_add(out.b.source,
+                rgb_mul(in, line_share(job, m, density.b)));
+        }
+        float scale = births ? light.births : 1.0f;
+        out.a.source = rgb_add(out.a.source, rgb_scale(q.a, scale));
+        out.b.source = rgb_add(out.b.source, rgb_scale(q.b, scale));
     }
     return out;
 }
@@ -238,9 +330,38 @@ HD float line_half_channel(float source, float sigma, float length, float odds,
     return seen;
 }
 
+/* Whether what passes is the same in all channels, here and before. */
+HD bool line_is_gray(const line_integral *out, const line_point *p)
+{
+    return p->sigma_t.r == p->sigma_t.g && p->sigma_t.r == p->sigma_t.b &&
+           out->tau[0] == out->tau[1] && out->tau[0] == out->tau[2] &&
+           (!scene_may(MAY_FUNCTIONS) || (out->odds[0] == out->odds[1] &&
+                                          out->odds[0] == out->odds[2]));
+}
+
+/* The same numbers as channel by channel, with a third of the exponentials. */
+HD void line_half_gray(line_integral *out, const line_point *p, float length)
+{
+    double depth = (double)p->sigma_t.r * (double)length;
+    if (!rgb_is_black(p->source)) {
+        float pass = line_pass(out->tau[0], out->odds[0]);
+        float reach = line_reach(p->sigma_t.r, length);
+        out->radiance.r += pass * p->source.r * reach;
+        out->radiance.g += pass * p->source.g * reach;
+        out->radiance.b += pass * p->source.b * reach;
+    }
+    out->tau[0] += depth;
+    out->tau[1] += depth;
+    out->tau[2] += depth;
+}
+
 /* Adds a part of constant coefficients. */
 HD void line_half(line_integral *out, const line_point *p, float length)
 {
+    if (line_is_gray(out, p)) {
+        line_half_gray(out, p, length);
+        return;
+    }
     out->radiance.r += line_half_channel(p->source.r, p->sigma_t.r, length,
                                          out->odds[0], &out->tau[0]);
     out->radiance.g += line_half_channel(p->source.g, p->sigma_t.g, length,
@@ -251,11 +372,9 @@ HD void line_half(line_integral *out, const line_point *p, float length)
 
 HD bool line_piece_empty(const media_walk *w)
 {
-    for (int i = 0; i < walk_parts(w); i++) {
-        const majorant_cell *bound = &walk_part(w, i)->bound;
-        if (bound->density != 0.0f || bound->rate != 0.0f)
+    for (int i = 0; i < walk_parts(w); i++)
+        if (!line_part_empty(walk_part(w, i)))
             return false;
-    }
     return true;
 }
 
@@ -373,25 +492,44 @@ HD void line_sample(line_job *job, const media_walk *w, float t, float length,
     }
 }
 
-HD void line_piece(line_job *job, const media_walk *w,
-                   line_integral *out)
+/* Of a line through media: where it is in its walk's piece. A step goes to the
+ * next plane of a lattice: on a GPU the threads of a warp take steps side by
+ * side, however many each line has. */
+typedef struct {
+    line_job job;
+    media_walk walk;
+    float t;
+} line_flight;
+
+/* From t on over `length`, between planes. */
+HD void line_stretch(line_job *job, const media_walk *w, float t, float stop,
+                     line_integral *out)
 {
     const float node = 0.211324865f;    /* (1 - 1/sqrt 3) / 2 */
-    float t = w->t;
-    while (t < w->t_end) {
-        line_advance(job, t);
-        float stop = line_stop(job, t, w->t_end), length = stop - t;
-        if (scene_may(MAY_FUNCTIONS) && job->sampled) {
-            line_sample(job, w, t, length, out);
-            t = stop;
-            continue;
-        }
-        line_point a = line_at(job, w, t + node * length);
-        line_point b = line_at(job, w, stop - node * length);
-        line_half(out, &a, 0.5f * length);
-        line_half(out, &b, 0.5f * length);
-        t = stop;
+    float length = stop - t;
+    if (scene_may(MAY_FUNCTIONS) && job->sampled) {
+        line_sample(job, w, t, length, out);
+        return;
     }
+    line_twins x = line_at_twins(job, w, t + node * length,
+                                 stop - node * length);
+    line_half(out, &x.a, 0.5f * length);
+    line_half(out, &x.b, 0.5f * length);
+}
+
+/* False: the line has ended. */
+HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
+{
+    while (!(f->t < f->walk.t_end) || line_piece_empty(&f->walk)) {
+        if (!walk_next(s, &f->walk))
+            return false;
+        f->t = f->walk.t;
+    }
+    line_advance(&f->job, f->t);
+    float stop = line_stop(&f->job, f->t, f->walk.t_end);
+    line_stretch(&f->job, &f->walk, f->t, stop, out);
+    f->t = stop;
+    return true;
 }
 
 HD line_jitter line_jitter_make(float first, float second)
@@ -424,47 +562,65 @@ HD line_integral line_zero(void)
     return line;
 }
 
-/* Adds the ray from t0 to t1 (finite) through the media of `set` to `out`; d
- * of unit length. Call with line_zero first; it can be continued over further
- * segments of the same ray. */
+/* What there is to be known of the media of a walk. */
+HD void line_add_media(const flat_scene *s, line_flight *f)
+{
+    line_job *job = &f->job;
+    job->lattices = 0;
+    job->sampled = false;
+    job->rate = 0.0f;
+    for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)
+        line_no_lattice(&job->lattice[i]);
+    for (int i = 0; i < walk_parts(&f->walk); i++) {
+        const flat_medium *m = walk_medium(s, &f->walk, i);
+        line_add_lattices(job, m);
+        if (scene_may(MAY_FUNCTIONS) && m->sampled) {
+            job->sampled = true;
+            job->rate = hd_max(job->rate,
+                               line_rate(m, walk_part(&f->walk, i)));
+        }
+    }
+    if (job->scattered)
+        line_add_field(job, f->walk.count == 1 ? walk_medium(s, &f->walk, 0)
+                                               : 0);
+}
+
+/* Begins the ray from t0 to t1 (finite) through the media of `set`; d of unit
+ * length. False: there are none. */
+HD bool line_begin(const flat_scene *s, const container_set *set, vec3 o,
+                   vec3 d, float t0, float t1, float p_dir, bool emission,
+                   bool scattered, line_jitter jitter, line_integral *out,
+                   line_flight *f)
+{
+    walk_begin(s, &f->walk, set, true, o, d, t0, t1);
+    out->overflow += f->walk.overflow;
+    f->t = t0;
+    if (f->walk.count == 0)
+        return false;
+    f->job.s = s;
+    f->job.o = o;
+    f->job.d = d;
+    f->job.p_dir = p_dir;
+    f->job.emission = emission;
+    f->job.scattered = scene_may(MAY_FIELD) && scattered &&
+                       s->field.numbers > 0;
+    f->job.jitter = jitter;
+    line_add_media(s, f);
+    return true;
+}
+
+/* Adds that ray to `out`. Call with line_zero first; it can be continued over
+ * further segments of the same ray. */
 HD void line_integrate(const flat_scene *s, const container_set *set,
                        vec3 o, vec3 d, float t0, float t1, float p_dir,
                        bool emission, bool scattered, line_jitter jitter,
                        line_integral *out)
 {
-    media_walk w;
-    walk_begin(s, &w, set, true, o, d, t0, t1);
-    out->overflow += w.overflow;
-    if (w.count == 0)
-        return;
-    line_job job;
-    job.s = s;
-    job.o = o;
-    job.d = d;
-    job.p_dir = p_dir;
-    job.emission = emission;
-    job.scattered = scene_may(MAY_FIELD) && scattered &&
-                    s->field.numbers > 0;
-    job.lattices = 0;
-    job.jitter = jitter;
-    job.sampled = false;
-    job.rate = 0.0f;
-    for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)
-        line_no_lattice(&job.lattice[i]);
-    for (int i = 0; i < walk_parts(&w); i++) {
-        const flat_medium *m = walk_medium(s, &w, i);
-        line_add_lattices(&job, m);
-        if (scene_may(MAY_FUNCTIONS) && m->sampled) {
-            job.sampled = true;
-            job.rate = hd_max(job.rate, line_rate(m, walk_part(&w, i)));
-        }
-    }
-    if (job.scattered)
-        line_add_field(&job);
-    do {
-        if (!line_piece_empty(&w))
-            line_piece(&job, &w, out);
-    } while (walk_next(s, &w));
+    line_flight f;
+    bool more = line_begin(s, set, o, d, t0, t1, p_dir, emission, scattered,
+                           jitter, out, &f);
+    while (more)
+        more = line_step(s, &f, out);
 }
 
 HD rgb line_transmittance(const line_integral *l)

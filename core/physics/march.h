@@ -16,56 +16,97 @@ typedef struct {
     uint32_t overflow;      /* media that were left out                    */
 } march_result;
 
-/* Adds the next segment; its emission passes the surfaces before it. */
-HD void march_segment(const flat_scene *s, const container_set *inside,
-                      vec3 o, vec3 d, float t0, float t1, rgb pass,
-                      line_jitter jitter, line_integral *line,
-                      rgb *radiance)
-{
-    line->radiance = rgb_gray(0.0f);
-    line_integrate(s, inside, o, d, t0, t1, 0.0f, true, true, jitter, line);
-    *radiance = rgb_add(*radiance, rgb_mul(line->radiance, pass));
-}
+/* A line on its way, segment by segment. */
+typedef struct {
+    vec3 o, d;
+    line_jitter jitter;
+    container_set inside;
+    ray_hit after, hit;     /* the ends of the segment                     */
+    rgb pass;               /* of the surfaces before it                   */
+    line_integral line;
+    line_flight flight;     /* through the segment's media                 */
+    march_result out;
+} march_state;
 
 /* Along the unit vector d from o, whose containers are `inside`; the jitter is
  * for functions (line.h). */
+HD void march_begin(march_state *m, const container_set *inside, vec3 o,
+                    vec3 d, line_jitter jitter)
+{
+    m->o = o;
+    m->d = d;
+    m->jitter = jitter;
+    m->inside = *inside;
+    m->after = hit_start(0.0f);
+    m->pass = rgb_gray(1.0f);
+    m->line = line_zero();
+    m->out.radiance = m->out.background = rgb_gray(0.0f);
+    m->out.depth = INFINITY;
+}
+
+/* To the next surface. True: through media, step by step. */
+HD bool march_seek(const flat_scene *s, march_state *m)
+{
+    bvh_ray r = bvh_ray_make(m->o, m->d);
+    m->hit = bvh_nearest(s, &r, &m->after, s->far);
+    m->line.radiance = rgb_gray(0.0f);
+    return line_begin(s, &m->inside, m->o, m->d, m->after.t, m->hit.t, 0.0f,
+                      true, true, m->jitter, &m->line, &m->flight);
+}
+
+HD bool march_step(const flat_scene *s, march_state *m)
+{
+    return line_step(s, &m->flight, &m->line);
+}
+
+/* At the end of a segment, whose emission passes the surfaces before it.
+ * False: that was the last. */
+HD bool march_land(const flat_scene *s, march_state *m)
+{
+    m->out.radiance = rgb_add(m->out.radiance,
+                              rgb_mul(m->line.radiance, m->pass));
+    if (m->hit.shape < 0)
+        return false;
+    if (hit_material(s, &m->hit) >= 0) {
+        bvh_ray r = bvh_ray_make(m->o, m->d);
+        rgb through = hit_transparency(s, &r, &m->hit);
+        if (m->out.depth == INFINITY && rgb_min(through) < 1.0f)
+            m->out.depth = m->hit.t;
+        m->pass = rgb_mul(m->pass, through);
+    }
+    if (rgb_is_black(m->pass))
+        return false;
+    shadow_cross(s, &m->hit, &m->inside);
+    m->after = m->hit;
+    return true;
+}
+
+/* What came of it. */
+HD march_result march_end(const flat_scene *s, const march_state *m)
+{
+    march_result out = m->out;
+    rgb left = rgb_mul(m->pass, line_transmittance(&m->line));
+    out.overflow = m->line.overflow;
+    out.background = rgb_mul(left, sky_radiance(s, m->d));
+    out.radiance = rgb_add(out.radiance, out.background);
+    /* Exact for thin media where no surface is on the way. */
+    out.opacity = rgb_add(rgb_sub(rgb_gray(1.0f), m->pass),
+                          rgb_mul(m->pass, line_opacity(&m->line)));
+    return out;
+}
+
+/* The whole of it. */
 HD march_result march_line(const flat_scene *s, const container_set *inside,
                            vec3 o, vec3 d, line_jitter jitter)
 {
-    march_result out;
-    out.radiance = out.background = rgb_gray(0.0f);
-    out.depth = INFINITY;
-    rgb pass = rgb_gray(1.0f);
-    line_integral line = line_zero();
-    container_set set = *inside;
-    bvh_ray r = bvh_ray_make(o, d);
-    ray_hit after = hit_start(0.0f);
-    for (;;) {
-        ray_hit h = bvh_nearest(s, &r, &after, s->far);
-        march_segment(s, &set, o, d, after.t, h.t, pass, jitter, &line,
-                      &out.radiance);
-        if (h.shape < 0)
-            break;
-        if (hit_material(s, &h) >= 0) {
-            rgb through = hit_transparency(s, &r, &h);
-            if (out.depth == INFINITY &&
-                rgb_min(through) < 1.0f)
-                out.depth = h.t;
-            pass = rgb_mul(pass, through);
-        }
-        if (rgb_is_black(pass))
-            break;
-        shadow_cross(s, &h, &set);
-        after = h;
-    }
-    rgb left = rgb_mul(pass, line_transmittance(&line));
-    out.overflow = line.overflow;
-    out.background = rgb_mul(left, sky_radiance(s, d));
-    out.radiance = rgb_add(out.radiance, out.background);
-    /* Exact for thin media where no surface is on the way. */
-    out.opacity = rgb_add(rgb_sub(rgb_gray(1.0f), pass),
-                          rgb_mul(pass, line_opacity(&line)));
-    return out;
+    march_state m;
+    march_begin(&m, inside, o, d, jitter);
+    do {
+        bool more = march_seek(s, &m);
+        while (more)
+            more = march_step(s, &m);
+    } while (march_land(s, &m));
+    return march_end(s, &m);
 }
 
 #endif

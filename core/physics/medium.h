@@ -56,6 +56,17 @@ HD rgb fire_color(const flat_scene *s, const flat_medium *m, float kelvin)
     return rgb_scale(c, scale);
 }
 
+/* What burns where the density is `density`, so much of it, and so hot. */
+HD rgb fire_light(const flat_scene *s, const flat_medium *m, rgb density,
+                  float amount, float temperature)
+{
+    if (amount == 0.0f || (!m->additive && rgb_is_black(density)))
+        return rgb_gray(0.0f);
+    float kelvin = m->kelvin_offset + m->kelvin_scale * temperature;
+    rgb c = rgb_scale(fire_color(s, m, kelvin), amount);
+    return m->additive ? c : rgb_mul(c, rgb_mul(m->sigma_a, density));
+}
+
 HD rgb fire_source(const flat_scene *s, const flat_medium *m,
                    const field_point *x, rgb density)
 {
@@ -64,10 +75,8 @@ HD rgb fire_source(const flat_scene *s, const flat_medium *m,
     float amount = m->amount >= 0 ? field_eval(s, m->amount, x) : 1.0f;
     if (amount == 0.0f)
         return rgb_gray(0.0f);
-    float kelvin = m->kelvin_offset +
-                   m->kelvin_scale * field_eval(s, m->temperature, x);
-    rgb c = rgb_scale(fire_color(s, m, kelvin), amount);
-    return m->additive ? c : rgb_mul(c, rgb_mul(m->sigma_a, density));
+    return fire_light(s, m, density, amount,
+                      field_eval(s, m->temperature, x));
 }
 
 /* Radiance per length that the medium emits at x, where its density is

@@ -86,22 +86,22 @@ HD void pixel_sum(double out[3], rgb c)
     out[2] += (double)c.b;
 }
 
-HD void pixel_line(const flat_scene *s, vec3 o, vec3 d,
-                   const container_set *set, uint32_t sample, uint32_t half,
-                   line_jitter jitter, film_pixel *out, track_counters *count)
+/* Adds sample i's line, the number-th of all lines. */
+HD void pixel_add_line(const flat_scene *s, vec3 d, uint32_t i,
+                       uint32_t number, const march_result *m,
+                       film_pixel *out, track_counters *count)
 {
-    march_result m = march_line(s, set, o, d, jitter);
-    count->overflow += m.overflow;
-    if (!pixel_finite(m.radiance) || !pixel_finite(m.opacity)) {
+    count->overflow += m->overflow;
+    if (!pixel_finite(m->radiance) || !pixel_finite(m->opacity)) {
         count->rejected++;
         return;
     }
-    pixel_sum(out->line[half], m.radiance);
-    pixel_sum(out->background, m.background);
-    pixel_sum(out->opacity, m.opacity);
-    if (sample == 0u)
-        out->depth = m.depth * vec3_dot(d, vec3_normalize(s->view.direction)) /
-                     s->unit;
+    pixel_sum(out->line[pixel_half(number)], m->radiance);
+    pixel_sum(out->background, m->background);
+    pixel_sum(out->opacity, m->opacity);
+    if (i == 0u)
+        out->depth = m->depth *
+                     vec3_dot(d, vec3_normalize(s->view.direction)) / s->unit;
 }
 
 /* Containers of a ray's origin. */
@@ -160,21 +160,85 @@ HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
     *along = at.along;
 }
 
-/* The straight lines of samples [first, first + n) of pixel (x, y). */
+/* The straight lines of a pixel's samples, one after the other, in steps: what
+ * is next of them. */
+enum { PIXEL_TAKES, PIXEL_SEEKS, PIXEL_STEPS, PIXEL_LANDS, PIXEL_ENDS };
+
+typedef struct {
+    int32_t next;           /* PIXEL_*                                     */
+    int32_t x, y;
+    uint32_t i, end;        /* the sample that is next, and the last's     */
+    uint32_t number;        /* of the line that is on                      */
+    march_state march;
+} pixel_liner;
+
+/* Of samples [first, first + n) of pixel (x, y). */
+HD void pixel_lines_begin(pixel_liner *l, int32_t x, int32_t y,
+                          uint32_t first, uint32_t n)
+{
+    l->next = PIXEL_TAKES;
+    l->x = x;
+    l->y = y;
+    l->i = first;
+    l->end = first + n;
+}
+
+/* Takes the next sample that has a line. */
+HD void pixel_take(const flat_scene *s, const pixel_job *job, pixel_liner *l)
+{
+    vec3 o, d;
+    line_jitter along;
+    container_set set;
+    bool all = job->lines != 0;
+    while (l->i < l->end && !pixel_has_line(l->i, all))
+        l->i++;
+    l->next = l->i < l->end ? PIXEL_SEEKS : PIXEL_ENDS;
+    if (l->next == PIXEL_ENDS)
+        return;
+    l->number = pixel_line_number(l->i, all);
+    pixel_ray(s, job, l->x, l->y, l->number, &o, &d, &set, &along);
+    march_begin(&l->march, &set, o, d, along);
+}
+
+HD void pixel_seek(const flat_scene *s, pixel_liner *l)
+{
+    l->next = march_seek(s, &l->march) ? PIXEL_STEPS : PIXEL_LANDS;
+}
+
+HD void pixel_step(const flat_scene *s, pixel_liner *l)
+{
+    if (!march_step(s, &l->march))
+        l->next = PIXEL_LANDS;
+}
+
+HD void pixel_land(const flat_scene *s, pixel_liner *l, film_pixel *out,
+                   track_counters *count)
+{
+    if (march_land(s, &l->march)) {
+        l->next = PIXEL_SEEKS;
+        return;
+    }
+    march_result m = march_end(s, &l->march);
+    pixel_add_line(s, l->march.d, l->i++, l->number, &m, out, count);
+    l->next = PIXEL_TAKES;
+}
+
+/* The whole of them. */
 HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
                         int32_t y, uint32_t first, uint32_t n,
                         film_pixel *out, track_counters *count)
 {
-    for (uint32_t i = first; i < first + n; i++) {
-        vec3 o, d;
-        line_jitter along;
-        container_set set;
-        if (!pixel_has_line(i, job->lines != 0))
-            continue;
-        uint32_t number = pixel_line_number(i, job->lines != 0);
-        pixel_ray(s, job, x, y, number, &o, &d, &set, &along);
-        pixel_line(s, o, d, &set, i, pixel_half(number), along, out, count);
-    }
+    pixel_liner l;
+    pixel_lines_begin(&l, x, y, first, n);
+    while (l.next != PIXEL_ENDS)
+        if (l.next == PIXEL_TAKES)
+            pixel_take(s, job, &l);
+        else if (l.next == PIXEL_SEEKS)
+            pixel_seek(s, &l);
+        else if (l.next == PIXEL_STEPS)
+            pixel_step(s, &l);
+        else
+            pixel_land(s, &l, out, count);
 }
 
 HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
