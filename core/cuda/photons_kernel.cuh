@@ -23,6 +23,10 @@ const int births_at_once = 128;
 const int most_steps = 16, step_threads = 4;
 const int seek_threads = 4, lay_threads = 24;
 
+/* So few of a warp wait for each other no more, nor so few of a block: photons
+ * that live long have it to themselves at the end. */
+const int few_of_warp = 8, few_of_block = 64;
+
 /* What is next of a thread's photon, beside photon_next: to get one, and that
  * there is none left. */
 enum { TRACER_TAKES = PHOTON_LAYS + 1, TRACER_ENDS };
@@ -45,6 +49,7 @@ struct stretch {
 
 struct warp_memory {
     photon_counters count[warp_size];
+    radiance_event event[warp_size];    /* that wait, see store            */
     stretch ring[ring_size];
     stretch laid[warp_size];    /* of each thread                          */
 };
@@ -59,6 +64,40 @@ __device__ __forceinline__ photon_state *photon_list(const trace_job *job,
                                                      int turn)
 {
     return static_cast<photon_state *>(job->list[turn]);
+}
+
+/* Stores the events that wait of a warp's threads, all of them here: one after
+ * the other, each thread in cells of its own. */
+__device__ __forceinline__ void store(const flat_scene *s,
+                                      const radiance_event *event,
+                                      photon_counters *count)
+{
+    int lane = threadIdx.x % warp_size;
+    if (!scene_may(MAY_BALLS) || !s->field.ball)
+        return;
+    unsigned all = __ballot_sync(~0u, count->tally.waits != 0);
+    count->tally.waits = 0;
+    __syncwarp();
+    for (; all != 0u; all &= all - 1u) {
+        int owner = __ffs(all) - 1;
+        const radiance_event *e = &event[owner];
+        radiance_box b = radiance_box_of(s, e->p);
+        int wide = b.hi[0] - b.lo[0] + 1, high = b.hi[1] - b.lo[1] + 1;
+        int cells = wide * high * (b.hi[2] - b.lo[2] + 1);
+        bool stored = false;
+        if (wide <= 0 || high <= 0)
+            cells = 0;
+        for (int i = lane; i < cells; i += warp_size)
+            if (radiance_splat_cell(s, count->tally.sum, e, &b,
+                                    b.lo[0] + i % wide,
+                                    b.lo[1] + i / wide % high,
+                                    b.lo[2] + i / (wide * high)))
+                stored = true;
+        stored = __any_sync(~0u, stored);
+        if (lane == owner && stored)
+            count->stored++;
+    }
+    __syncwarp();
 }
 
 /* Numbers in a count for those threads of a warp that ask; all are here. */
@@ -103,12 +142,14 @@ __device__ __forceinline__ void leave_photons(const trace_job *job, tracer *t)
 
 /* What follows a flight, and the next one. */
 __device__ __forceinline__ void land(const trace_job *job, tracer *t,
+                                     const radiance_event *event,
                                      photon_counters *count)
 {
     const flat_scene *s = &job->scene;
     if (t->next == PHOTON_LANDS &&
         !photon_land(s, &t->photon, count, &t->flight))
         t->next = TRACER_TAKES;
+    store(s, event, count);
     take_photons(job, t, count);
     if (!job->last && __any_sync(~0u, t->next == TRACER_ENDS))
         leave_photons(job, t);
@@ -131,10 +172,16 @@ __device__ __forceinline__ void seek(const trace_job *job, tracer *t)
     }
 }
 
+/* Whether few of a warp's photons are left. */
+__device__ __forceinline__ bool hurries(const tracer *t)
+{
+    return __popc(__ballot_sync(~0u, t->next != TRACER_ENDS)) <= few_of_warp;
+}
+
 __device__ __forceinline__ bool goes_on(const tracer *t, int what, int step)
 {
     unsigned on = __ballot_sync(~0u, t->next == what);
-    return __popc(on) >= (step == 0 ? 1 : step_threads);
+    return __popc(on) >= (step == 0 || hurries(t) ? 1 : step_threads);
 }
 
 __device__ __forceinline__ void track(const trace_job *job, tracer *t,
@@ -145,6 +192,25 @@ __device__ __forceinline__ void track(const trace_job *job, tracer *t,
             photon_track(&job->scene, &t->photon, count, &t->flight);
             t->next = photon_next(&t->flight);
         }
+}
+
+__device__ __forceinline__ void collide(const trace_job *job, tracer *t,
+                                        photon_counters *count)
+{
+    if (t->next == PHOTON_COLLIDES) {
+        photon_collide(&job->scene, &t->photon, count, &t->flight);
+        t->next = photon_next(&t->flight);
+    }
+}
+
+/* From tentative collision to tentative collision. */
+__device__ __forceinline__ void fly(const trace_job *job, tracer *t,
+                                    photon_counters *count)
+{
+    do {
+        track(job, t, count);
+        collide(job, t, count);
+    } while (hurries(t) && __any_sync(~0u, t->next == PHOTON_TRACKS));
 }
 
 /* Puts a stretch that a thread has into the ring, in which is room. */
@@ -221,8 +287,10 @@ __global__ void __launch_bounds__(births_at_once)
 bear_photons(const __grid_constant__ trace_job job)
 {
     unsigned i = blockIdx.x * births_at_once + threadIdx.x;
+    __shared__ radiance_event event[births_at_once];
     photon_counters count = {};
     count.tally.sum = job.sum;
+    count.tally.later = &event[threadIdx.x];
     if (i == 0)
         job.queue->taken = job.queue->left[!job.turn] = 0;
     if (i < job.born) {
@@ -231,7 +299,20 @@ bear_photons(const __grid_constant__ trace_job job)
             p.path.beta = rgb_gray(0.0f);
         photon_list(&job, job.turn)[job.queue->left[job.turn] + i] = p;
     }
+    store(&job.scene, event + threadIdx.x / warp_size * warp_size, &count);
     write_counts(&job, &count);
+}
+
+/* Whether a photon is left: to the block, or to a warp once all of the block's
+ * go by themselves. */
+__device__ __forceinline__ bool goes_round(const tracer *t, bool *alone)
+{
+    bool on = t->next != TRACER_ENDS;
+    if (*alone)
+        return __any_sync(~0u, on);
+    int left = __syncthreads_count(on);
+    *alone = left <= few_of_block;
+    return left > 0;
 }
 
 __global__ void __launch_bounds__(most_trace_threads, 1)
@@ -245,21 +326,19 @@ trace_photons(const __grid_constant__ trace_job job)
     layer l;
     *count = {};
     count->tally.sum = job.sum;
+    count->tally.later = &m->event[threadIdx.x % warp_size];
     t.next = TRACER_TAKES;
     l.busy = false;
     l.first = l.count = 0;
-    while (__syncthreads_or(t.next != TRACER_ENDS)) {
-        land(&job, &t, count);
+    bool alone = false;
+    while (goes_round(&t, &alone)) {
+        land(&job, &t, m->event, count);
         seek(&job, &t);
         if (t.next == PHOTON_DEPARTS) {
             photon_depart(s, &t.photon, count, &t.flight);
             t.next = photon_next(&t.flight);
         }
-        track(&job, &t, count);
-        if (t.next == PHOTON_COLLIDES) {
-            photon_collide(s, &t.photon, count, &t.flight);
-            t.next = photon_next(&t.flight);
-        }
+        fly(&job, &t, count);
         put_stretches(m, &l, &t);
         lay(s, m, &l, count, lay_threads);
     }

@@ -260,8 +260,13 @@ HD void photon_store(const flat_scene *s, const photon_state *p,
     if (!scene_may(MAY_BALLS) || !p->stored || !c->tally.sum ||
         !s->field.ball)
         return;
-    if (radiance_splat(s, &c->tally, at, d, phase, g,
-                       rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u))))
+    radiance_event e;
+    e.p = at;
+    e.d = d;
+    e.phase = phase;
+    e.g = g;
+    e.power = rgb_scale(p->path.beta, 1.0f / rgb_mean(p->path.r_u));
+    if (radiance_store(s, &c->tally, &e))
         c->stored++;
 }
 
@@ -450,8 +455,13 @@ HD void photon_store_birth(const flat_scene *s, const photon_source *source,
         return;
     float weight = source->kind == PHOTON_GLOW ? s->glows[0].power * scale
                                                : rgb_mean(p->path.beta);
-    if (radiance_splat(s, &c->tally, p->path.o, p->path.d, RADIANCE_BIRTH,
-                       0.0f, rgb_gray(weight)))
+    radiance_event e;
+    e.p = p->path.o;
+    e.d = p->path.d;
+    e.phase = RADIANCE_BIRTH;
+    e.g = 0.0f;
+    e.power = rgb_gray(weight);
+    if (radiance_store(s, &c->tally, &e))
         c->stored++;
 }
 

@@ -18,9 +18,23 @@
 #define RADIANCE_ONE 268435456.0
 #define RADIANCE_MOST 1048576.0f
 
+/* An event at p of a photon that came along d, for a field of balls. */
+typedef struct {
+    vec3 p, d;
+    int32_t phase;          /* or RADIANCE_BIRTH                           */
+    float g;
+    rgb power;
+} radiance_event;
+
+/* Not a phase function: a birth, of which the first channel counts. */
+#define RADIANCE_BIRTH (-1)
+
 typedef struct {
     int64_t *sum;           /* field.numbers a cell                        */
     uint64_t clipped;       /* deposits above RADIANCE_MOST                */
+    radiance_event *later;  /* where an event waits for the threads that will
+                               store it together; NULL: it is stored at once */
+    int32_t waits;          /* one does                                    */
 } radiance_tally;
 
 HD void radiance_add(int64_t *sum, double value)
@@ -114,45 +128,70 @@ HD void radiance_span(const radiance_lattice *f, int axis, float q, float r,
     *last = *last > end ? end : *last;
 }
 
-/* Not a phase function: a birth, of which the first channel counts. */
-#define RADIANCE_BIRTH (-1)
+/* Cells whose middles may lie in the ball around an event. */
+typedef struct {
+    float q[3];             /* the event, in cells from their middles      */
+    int lo[3], hi[3];
+} radiance_box;
 
-/* Adds an event at p of a photon that came along d to the cells in whose ball
- * it lies: the sums of a gather over all photons there [Jensen and Christensen
- * 1998], without a list of photons. False: it lies in none. */
-HD bool radiance_splat(const flat_scene *s, radiance_tally *t, vec3 p, vec3 d,
-                       int phase, float g, rgb power)
+HD radiance_box radiance_box_of(const flat_scene *s, vec3 p)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_box b;
+    float r = f->radius / f->side;
+    for (int i = 0; i < 3; i++) {
+        b.q[i] = (vec3_get(p, i) - f->origin[i]) / f->side - 0.5f;
+        radiance_span(f, i, b.q[i], r, &b.lo[i], &b.hi[i]);
+    }
+    return b;
+}
+
+/* Adds an event to a cell of its box, if it lies in the cell's ball. */
+HD bool radiance_splat_cell(const flat_scene *s, int64_t *sums,
+                            const radiance_event *e, const radiance_box *b,
+                            int x, int y, int z)
+{
+    const radiance_lattice *f = &s->field;
+    float r = f->radius / f->side;
+    vec3 off = vec3_make((float)x - b->q[0], (float)y - b->q[1],
+                         (float)z - b->q[2]);
+    int64_t cell = radiance_cell(s, x, y, z);
+    if (cell < 0 || !(vec3_dot(off, off) <= r * r))
+        return false;
+    int64_t *sum = sums + cell * f->numbers;
+    if (e->phase == RADIANCE_BIRTH) {
+        radiance_add(sum + f->births, (double)e->power.r);
+        return true;
+    }
+    vec3 eye = radiance_to_eye(s, vec3_mad(e->p, f->side, off));
+    radiance_add_rgb(sum, rgb_scale(e->power, phase_eval_between(
+                              e->phase, e->g, e->d, eye)));
+    return true;
+}
+
+/* Adds an event to the cells in whose ball it lies: the sums of a gather over
+ * all photons there [Jensen and Christensen 1998], without a list of photons.
+ * False: it lies in none, or waits. */
+HD bool radiance_store(const flat_scene *s, radiance_tally *t,
+                       const radiance_event *e)
 {
     bool stored = false;
-    const radiance_lattice *f = &s->field;
-    float r = f->radius / f->side, q[3];
-    int lo[3], hi[3];
-    for (int i = 0; i < 3; i++) {
-        q[i] = (vec3_get(p, i) - f->origin[i]) / f->side - 0.5f;
-        radiance_span(f, i, q[i], r, &lo[i], &hi[i]);
-    }
-    if (!(rgb_max(power) < RADIANCE_MOST && rgb_min(power) > -RADIANCE_MOST)) {
+    if (!(rgb_max(e->power) < RADIANCE_MOST &&
+          rgb_min(e->power) > -RADIANCE_MOST)) {
         t->clipped++;
         return false;
     }
-    for (int z = lo[2]; z <= hi[2]; z++)
-        for (int y = lo[1]; y <= hi[1]; y++)
-            for (int x = lo[0]; x <= hi[0]; x++) {
-                vec3 off = vec3_make((float)x - q[0], (float)y - q[1],
-                                     (float)z - q[2]);
-                int64_t cell = radiance_cell(s, x, y, z);
-                if (cell < 0 || !(vec3_dot(off, off) <= r * r))
-                    continue;
-                stored = true;
-                int64_t *sum = t->sum + cell * f->numbers;
-                if (phase == RADIANCE_BIRTH) {
-                    radiance_add(sum + f->births, (double)power.r);
-                    continue;
-                }
-                vec3 eye = radiance_to_eye(s, vec3_mad(p, f->side, off));
-                radiance_add_rgb(sum,
-                    rgb_scale(power, phase_eval_between(phase, g, d, eye)));
-            }
+    if (t->later) {
+        *t->later = *e;
+        t->waits = 1;
+        return false;
+    }
+    radiance_box b = radiance_box_of(s, e->p);
+    for (int z = b.lo[2]; z <= b.hi[2]; z++)
+        for (int y = b.lo[1]; y <= b.hi[1]; y++)
+            for (int x = b.lo[0]; x <= b.hi[0]; x++)
+                if (radiance_splat_cell(s, t->sum, e, &b, x, y, z))
+                    stored = true;
     return stored;
 }
 

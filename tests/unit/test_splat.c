@@ -34,11 +34,13 @@ static void field_init(struct field *f)
 
 static void lay(struct field *f, const double x[3], double power)
 {
-    radiance_tally tally = {f->sum, 0};
-    radiance_splat(&f->scene, &tally,
-                   vec3_make((float)x[0], (float)x[1], (float)x[2]),
-                   vec3_make(0.0f, 0.0f, 1.0f), PHASE_ISOTROPIC, 0.0f,
-                   rgb_gray((float)power));
+    radiance_tally tally = {.sum = f->sum};
+    radiance_event event = {
+        .p = vec3_make((float)x[0], (float)x[1], (float)x[2]),
+        .d = vec3_make(0.0f, 0.0f, 1.0f),
+        .phase = PHASE_ISOTROPIC,
+        .power = rgb_gray((float)power)};
+    radiance_store(&f->scene, &tally, &event);
     assert_int_equal(tally.clipped, 0);
 }
 
