@@ -310,8 +310,22 @@ HD void single_rest(const flat_scene *s, path_state *p,
     path_add(p, rgb_mul(p->beta, value));
 }
 
-/* What the media of a segment scatter, and what passes them: black where that
- * is nothing. */
+/* Whether nothing gives light behind a surface that is a boundary of media
+ * alone: what passes them is no matter then. */
+HD bool single_is_last(const flat_scene *s, const path_state *p,
+                       const bvh_ray *r, const ray_hit *h)
+{
+    if (s->atmosphere >= 0 || hit_material(s, h) >= 0)
+        return false;
+    container_set set = p->inside;
+    shadow_cross(s, h, &set);
+    if (set.count > 0)
+        return false;
+    p->count->rays++;
+    return bvh_nearest(s, r, h, s->far).shape < 0;
+}
+
+/* What the media of a segment scatter. */
 HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
 {
     single_profile f;
@@ -323,9 +337,6 @@ HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
             float u = p->along + 0.61803399f * (float)i;
             single_light(s, p, &f, i, u - (float)hd_floor(u));
         }
-    if (h->shape >= 0)
-        p->beta = rgb_mul(p->beta, track_transmittance(s, &p->inside, true,
-            p->o, p->d, p->after.t, h->t, &p->random, p->count));
 }
 
 /* Whether the eye's rays need no flights. */
@@ -349,8 +360,11 @@ HD bool single_segment(const flat_scene *s, path_state *p,
     if (h.shape < 0)
         container_leave_bounded(s, &p->inside);
     single_media(s, p, &h);
-    return h.shape >= 0 && !rgb_is_black(p->beta) &&
-           path_surface(s, p, &r, &h);
+    if (h.shape < 0 || single_is_last(s, p, &r, &h))
+        return false;
+    p->beta = rgb_mul(p->beta, track_transmittance(s, &p->inside, true, p->o,
+        p->d, p->after.t, h.t, &p->random, p->count));
+    return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
 }
 
 #endif
