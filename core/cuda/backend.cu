@@ -47,6 +47,7 @@ void cuda_close(void *state)
     cuda_state *s = static_cast<cuda_state *>(state);
     if (s) {
         device_arena_free(&s->arena);
+        device_arena_free(&s->field);
         device_clock_free(&s->clock);
     }
     delete s;
@@ -265,5 +266,5 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 
 extern "C" const struct backend backend_cuda = {
     "cuda",   cuda_available, cuda_open,  cuda_trace, cuda_gather,  cuda_take,
-    cuda_put, cuda_sample,    cuda_close, nullptr,    cuda_devices, cuda_use,
+    cuda_put, cuda_sample,    cuda_close, cuda_renew, cuda_devices, cuda_use,
 };

@@ -9,6 +9,7 @@ extern "C" {
 struct cuda_state {
     backend_frame frame;
     device_arena arena;
+    device_arena field;         /* of a pass of its own                    */
     struct resident_set *kept;  /* beside it, or NULL                      */
     sample_job job;             /* its scene's pointers are the device's   */
     const sample_stage *stage;
@@ -36,6 +37,7 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
 bool cuda_gather(void *state, double unit, brume_error *err);
 bool cuda_take(void *state, float *cells, brume_error *err);
 bool cuda_put(void *state, const float *cells, brume_error *err);
+bool cuda_renew(void *state, brume_error *err);
 
 /* backend.cu */
 void cuda_add_track(const device_counters *c, brume_stats *out);

@@ -206,3 +206,42 @@ bool cuda_put(void *state, const float *cells, brume_error *err)
         cudaMemcpy(s->cells, cells, bytes, cudaMemcpyHostToDevice),
         "writing the field", err);
 }
+
+/* Room for fields that grow from pass to pass: a quarter more than is needed,
+ * so that few of them ask for more. */
+static bool make_room(device_arena *arena, size_t bytes, brume_error *err)
+{
+    if (arena->base && arena->size >= bytes) {
+        arena->used = 0;
+        return true;
+    }
+    device_arena_free(arena);
+    return device_arena_new(arena, bytes + bytes / 4, err);
+}
+
+bool cuda_renew(void *state, brume_error *err)
+{
+    cuda_state *s = static_cast<cuda_state *>(state);
+    const flat_scene *from = &s->frame.flat->view;
+    flat_scene *to = &s->job.scene;
+    size_t slots = from->radiance_slots_count * sizeof *from->radiance_slots;
+    size_t cells = from->radiance_count * sizeof *from->radiance;
+    size_t sums = radiance_sum_bytes(s->frame.flat);
+    if (!make_room(&s->field,
+                   device_round(slots) + device_round(cells) +
+                       device_round(sums),
+                   err))
+        return false;
+    to->field = from->field;
+    to->radiance_count = from->radiance_count;
+    to->radiance_slots_count = from->radiance_slots_count;
+    void *at = device_take(&s->field, slots);
+    to->radiance_slots = static_cast<int32_t *>(at);
+    s->cells = static_cast<float *>(device_take(&s->field, cells));
+    to->radiance = s->cells;
+    s->sum = static_cast<int64_t *>(device_take(&s->field, sums));
+    return device_check(cudaMemcpy(at, from->radiance_slots, slots,
+                                   cudaMemcpyHostToDevice),
+                        "uploading the field", err) &&
+           device_check(cudaMemset(s->sum, 0, sums), "clearing the field", err);
+}

@@ -8,8 +8,10 @@
  * batches, at a standard error SE <= max(truth / 1000, u). Where a picture
  * would take more than PICTURE_SECONDS (2) of the processor for that, the
  * row's scene is walked through (truth_walk.h), if it may be; WALK=1 does so
- * at once. What takes more than SECONDS_A_ROW (60) is `short`: the error it
- * reached is told, and z still holds. RELATIVE=1e-4 asks for more. */
+ * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
+ * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
+ * BACKEND=cuda draws the pictures on a GPU, PIXELS=512 makes them larger than
+ * 16 x 16. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -273,8 +275,8 @@ static double setting(const char *name, double otherwise)
 static double unseen(const struct truth_row *row, int spp)
 {
     return row->walked ? 0.0
-                       : row->rare / ((double)spp * BATCHES * BATCH_PIXELS *
-                                      BATCH_PIXELS);
+                       : row->rare / ((double)spp * BATCHES * batch_pixels() *
+                                      batch_pixels());
 }
 
 /* Doubles as its own pilot: batches that were too small are thrown away, so
@@ -306,7 +308,8 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
 {
     struct result out = {0};
     double start = cpu_seconds();
-    bool can_walk = row->plan.space != WALK_NOWHERE;
+    bool can_walk = row->plan.space != WALK_NOWHERE &&
+                    setting("WALK", 0.0) >= 0.0;
     row->walked = can_walk && setting("WALK", 0.0) > 0.0;
     if (!row->walked)
         run_so(row, &frame,

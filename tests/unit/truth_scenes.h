@@ -2,6 +2,8 @@
  * of its estimate, through brume.h alone. Lengths are mean free paths. */
 #ifndef TESTS_UNIT_TRUTH_SCENES_H
 #define TESTS_UNIT_TRUTH_SCENES_H
+#include <stdlib.h>
+#include <string.h>
 #include "tests/unit/truth_walk.h"
 
 /* What a row of a table asks. `p` are its parameters, family by family. */
@@ -17,6 +19,20 @@ struct truth_row {
     bool sample;            /* run by `make test` too                      */
 };
 
+/* Pictures are so many pixels wide and high: on a GPU they are to be large. */
+static inline int batch_pixels(void)
+{
+    const char *pixels = getenv("PIXELS");
+    return pixels ? atoi(pixels) : 16;
+}
+
+static inline enum brume_backend batch_backend(void)
+{
+    const char *name = getenv("BACKEND");
+    return name && strcmp(name, "cuda") == 0 ? BRUME_BACKEND_CUDA
+                                             : BRUME_BACKEND_CPU;
+}
+
 /* A picture's weighted sum over pixels; frees the scene. `weight` may be NULL
  * for the mean. */
 static inline double batch_render(brume_scene *s, int pixels, int spp,
@@ -30,6 +46,7 @@ static inline double batch_render(brume_scene *s, int pixels, int spp,
     o.width = o.height = pixels;
     o.spp = spp;
     o.frame = frame;
+    o.backend = batch_backend();
     assert_true(brume_render(s, &o, &f, truth_error()));
     assert_int_equal(f.stats.majorant_exceeded, 0);
     assert_int_equal(f.stats.rejected, 0);
@@ -41,17 +58,16 @@ static inline double batch_render(brume_scene *s, int pixels, int spp,
     return sum;
 }
 
-enum { BATCH_PIXELS = 16 };
-
 /* The picture's mean, or that of as many paths walked together. */
 static inline double batch_measure(brume_scene *s, const struct truth_row *row,
                                    int spp, uint32_t frame)
 {
     if (row->walked)
         return truth_walk(s, &row->plan,
-                          (size_t)BATCH_PIXELS * BATCH_PIXELS * (size_t)spp,
+                          (size_t)batch_pixels() * (size_t)batch_pixels() *
+                              (size_t)spp,
                           frame);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
 }
 
 static inline struct brume_globals batch_globals(bool multiple)
@@ -124,7 +140,7 @@ static inline double batch_t3(const struct truth_row *row, int spp,
     struct brume_medium m = truth_medium(0.0, 1.0, 0.0);
     brume_scene *s = batch_slab(false, row->p[0], 3000.0, &m);
     batch_beam(s, 1.0);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
 }
 
 /* p: mu_t, gamma in degrees, g. A black disc ends the ray. */
@@ -155,7 +171,7 @@ static inline double batch_t4(const struct truth_row *row, int spp,
     disc.b[2] = 1.0;
     disc.material = brume_add_material(s, &black, truth_error());
     assert_true(brume_add_shape(s, &disc, truth_error()) >= 0);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
 }
 
 /* ---- T5: a point source in an infinite medium ---------------------------- */
@@ -333,7 +349,7 @@ static inline double batch_t6_radiance(const struct truth_row *row, int spp,
     brume_scene *s = batch_slab(true, 1.0, slab_width(1.0), &m);
     batch_tilt(s, row->p[0]);
     batch_beam(s, row->p[1]);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
 }
 
 /* p: cosine. */
@@ -345,7 +361,7 @@ static inline double batch_t7_slab(const struct truth_row *row, int spp,
         m.emission[i] = m.absorption[i];
     brume_scene *s = batch_slab(true, 2.0, slab_width(2.0), &m);
     batch_tilt(s, row->p[0]);
-    return batch_render(s, BATCH_PIXELS, spp, frame, NULL, 0);
+    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
 }
 
 /* p: optical radius, albedo. The power that leaves an emitting ball is 4 pi
@@ -367,7 +383,7 @@ static inline double batch_ball(const struct truth_row *row, int spp,
     assert_true(brume_set_camera(s, &c, truth_error()));
     ball.radius = r;
     truth_fill(s, ball, &m);
-    return batch_render(s, 2 * BATCH_PIXELS, spp, frame, NULL, 0) * 3.0 /
+    return batch_render(s, 2 * batch_pixels(), spp, frame, NULL, 0) * 3.0 /
            (TRUTH_PI * r);
 }
 
