@@ -61,7 +61,14 @@ HD bool path_faces(const path_vertex *v, vec3 wi)
     return !v->surface || vec3_dot(v->surface->ng, wi) > 0.0f;
 }
 
-/* What passes of the light of a sample. */
+HD_APART rgb path_lit_line(const flat_scene *s, container_set *set, vec3 o,
+                           vec3 wi, float distance, line_jitter jitter)
+{
+    return shadow_line(s, set, o, wi, distance, jitter);
+}
+
+/* What passes of the light of a sample. Where a field takes the noise of the
+ * rest, a surface's light has none either. */
 HD rgb path_lit(const flat_scene *s, path_state *p, const path_vertex *v,
                 const light_sample *l)
 {
@@ -69,10 +76,16 @@ HD rgb path_lit(const flat_scene *s, path_state *p, const path_vertex *v,
     if (!light->shadows)
         return l->color;
     container_set set = p->inside;
-    rgb left = shadow_transmittance(s, &set,
-        s->media_multiple || light->media_attenuation != 0,
-        path_origin(v, l->shadow_wi), l->shadow_wi, l->shadow_distance,
-        &p->random, p->count);
+    bool atmosphere = s->media_multiple || light->media_attenuation != 0;
+    vec3 o = path_origin(v, l->shadow_wi);
+    if (scene_may(MAY_FIELD) && s->field.numbers > 0 && v->surface &&
+        atmosphere) {
+        p->count->shadow_rays++;
+        return rgb_mul(l->color, path_lit_line(s, &set, o, l->shadow_wi,
+            l->shadow_distance, line_jitter_draw(s, &p->random)));
+    }
+    rgb left = shadow_transmittance(s, &set, atmosphere, o, l->shadow_wi,
+                                    l->shadow_distance, &p->random, p->count);
     return rgb_mul(l->color, left);
 }
 

@@ -291,12 +291,12 @@ HD_APART rgb single_lights(const flat_scene *s, path_state *p, vec3 x)
     return sum;
 }
 
-/* What the cells are wrong by. */
+/* What the cells are wrong by, at the share `u` of what is scattered. */
 HD void single_rest(const flat_scene *s, path_state *p,
-                    const single_profile *f)
+                    const single_profile *f, float u)
 {
     float density, all = f->sum[f->count];
-    float t = single_place(f, p->along * all, &density);
+    float t = single_place(f, u * all, &density);
     vec3 x = vec3_mad(p->o, t, p->d);
     rgb sigma = single_sigma(s, p, x);
     p->count->lookups++;
@@ -325,13 +325,35 @@ HD bool single_is_last(const flat_scene *s, const path_state *p,
     return bvh_nearest(s, r, h, s->far).shape < 0;
 }
 
+/* What the media of a segment let pass up to t; `all`: and what comes along it
+ * of their emission and the cells' light. */
+HD_APART line_integral single_line(const flat_scene *s,
+                                   const container_set *set, vec3 o, vec3 d,
+                                   float t0, float t1, float p_dir, bool all,
+                                   line_jitter jitter)
+{
+    line_integral line = line_zero();
+    line_integrate(s, set, o, d, t0, t1, p_dir, all, all, jitter, &line);
+    return line;
+}
+
+HD line_integral single_along(const flat_scene *s, path_state *p, float t,
+                              bool all)
+{
+    const container_set *set = &p->inside;
+    HD_COPY(container_set, set);
+    line_jitter jitter = line_jitter_draw(s, &p->random);
+    return single_line(s, HD_COPIED(set), p->o, p->d, p->after.t, t, p->p_dir,
+                       all, jitter);
+}
+
 /* What the media of a segment scatter. */
 HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
 {
     single_profile f;
     bool scattered = single_look(s, p, h->t, &f);
     if (scattered && s->field.lit)
-        single_rest(s, p, &f);
+        single_rest(s, p, &f, p->along);
     else if (scattered)
         for (int i = 0; i < (int)s->lights_count; i++) {
             float u = p->along + 0.61803399f * (float)i;
@@ -347,11 +369,30 @@ HD bool single_does(const flat_scene *s)
     return s->scatters && once && !s->local_lights;
 }
 
+/* Whether rays that a surface sends on gather the cells as the eye's do: where
+ * these hold what goes anywhere. */
+HD bool single_follows(const flat_scene *s)
+{
+    return scene_may(MAY_FIELD) && s->field.lit && s->field.eye < 0;
+}
+
+/* All that a surface's ray gathers up to the next one, and what passes: the
+ * cells along it, and at one place what they are wrong by. */
+HD void single_gather(const flat_scene *s, path_state *p, const ray_hit *h)
+{
+    single_profile f;
+    if (single_look(s, p, h->t, &f))
+        single_rest(s, p, &f, rng_float(&p->random));
+    line_integral line = single_along(s, p, h->t, true);
+    path_add(p, rgb_mul(p->beta, line.radiance));
+    p->beta = rgb_mul(p->beta, line_transmittance(&line));
+}
+
 /* In place of path_segment. */
 HD bool single_segment(const flat_scene *s, path_state *p,
                        track_counters *count)
 {
-    if (!p->straight || !single_does(s))
+    if (!single_does(s) || !(p->straight || single_follows(s)))
         return path_segment(s, p, count);
     p->count = count;
     bvh_ray r = bvh_ray_make(p->o, p->d);
@@ -359,11 +400,18 @@ HD bool single_segment(const flat_scene *s, path_state *p,
     ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
     if (h.shape < 0)
         container_leave_bounded(s, &p->inside);
+    if (!p->straight) {
+        single_gather(s, p, &h);
+        if (h.shape >= 0)
+            return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
+        path_escape(s, p);
+        return false;
+    }
     single_media(s, p, &h);
     if (h.shape < 0 || single_is_last(s, p, &r, &h))
         return false;
-    p->beta = rgb_mul(p->beta, track_transmittance(s, &p->inside, true, p->o,
-        p->d, p->after.t, h.t, &p->random, p->count));
+    line_integral line = single_along(s, p, h.t, false);
+    p->beta = rgb_mul(p->beta, line_transmittance(&line));
     return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
 }
 

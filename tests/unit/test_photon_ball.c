@@ -131,6 +131,17 @@ static int add_heap(brume_scene *s, double steep)
     return brume_add_field(s, &f, truth_error());
 }
 
+static void add_sun(brume_scene *s)
+{
+    struct brume_light l = BRUME_LIGHT_INIT;
+    l.location[0] = -100.0;
+    l.location[1] = 40.0;
+    l.location[2] = -30.0;
+    l.parallel = true;
+    l.color[0] = l.color[1] = l.color[2] = 1.0;
+    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+}
+
 /* A cloud of a few voxels, dense in its middle, lit from its left. */
 static brume_scene *small_cloud(void)
 {
@@ -140,13 +151,7 @@ static brume_scene *small_cloud(void)
     m.density[0] = add_heap(s, 0.1);
     m.densities = 1;
     truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    struct brume_light l = BRUME_LIGHT_INIT;
-    l.location[0] = -100.0;
-    l.location[1] = 40.0;
-    l.location[2] = -30.0;
-    l.parallel = true;
-    l.color[0] = l.color[1] = l.color[2] = 1.0;
-    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    add_sun(s);
     return s;
 }
 
@@ -195,38 +200,72 @@ static double render_against(brume_scene *s, const struct brume_options *o,
     return sum;
 }
 
-/* In a picture alone cells tell what is scattered once, and paths seek the
- * rest; in those of films paths seek all. The mean is the same, however coarse
- * the cells; the noise is far less. */
-static void photon_ball__cells_take_noise_and_nothing_else(void **state)
+/* A white ball in haze, lit from its left: it shines on the haze, and the haze
+ * on it. */
+static brume_scene *hazy_ball(void)
 {
-    (void)state;
-    enum { TIMES = 12 };
+    struct brume_globals g = full_transport();
+    brume_scene *s = truth_scene(&g, 5.0, 0.45);
+    struct brume_medium m = truth_medium(0.05, 1.2, 0.0);
+    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    struct brume_shape b = BRUME_SHAPE_INIT;
+    b.kind = BRUME_SHAPE_SPHERE;
+    b.radius = 0.6;
+    struct brume_material white = BRUME_MATERIAL_INIT;
+    for (int i = 0; i < 3; i++)
+        white.color[0][i] = 0.9;
+    white.diffuse = 1.0;
+    b.material = brume_add_material(s, &white, truth_error());
+    assert_true(brume_add_shape(s, &b, truth_error()) >= 0);
+    add_sun(s);
+    return s;
+}
+
+/* Means of pictures alone, whose cells hold light straight from lights, and of
+ * those of films, whose cells do not: they are the same, however coarse the
+ * cells; the noise is less by the factor `less`, squared. */
+static void compare_cells(brume_scene *s, uint64_t times, double side,
+                          double less)
+{
     double mean[2] = {0}, var[2] = {0}, noise[2] = {0};
-    brume_scene *s = small_cloud();
     for (int kind = 0; kind < 2; kind++) {
         float last[3 * PIXELS] = {0};
         double squares = 0.0, ignored = 0.0;
         struct brume_options o = ball_options(1);
         o.photons.gather = BRUME_GATHER_TALLY;
         o.photons.taps = kind ? 3 : 1;
-        o.photons.count = 200000;
-        o.photons.spacing = 0.25;
+        o.photons.count = 100000;
+        o.photons.spacing = side;
         o.spp = 16;
-        for (o.seed = 1; o.seed <= TIMES; o.seed++) {
+        for (o.seed = 1; o.seed <= times; o.seed++) {
             double x = render_against(s, &o, last,
                                       o.seed > 1 ? &noise[kind] : &ignored);
-            mean[kind] += x / TIMES;
-            squares += x * x / TIMES;
+            mean[kind] += x / times;
+            squares += x * x / times;
         }
-        var[kind] = (squares - mean[kind] * mean[kind]) / (TIMES - 1);
+        var[kind] = (squares - mean[kind] * mean[kind]) / (times - 1);
     }
     double error = sqrt(var[0] + var[1]);
     if (!(fabs(mean[0] - mean[1]) < 4.0 * error) ||
-        !(error < 0.005 * mean[1]) || !(noise[0] < noise[1] / 4.0))
+        !(error < 0.005 * mean[1]) || !(noise[0] < noise[1] / less))
         fail_msg("cells %.5f, rays %.5f, +- %.5f; noise %g of theirs", mean[0],
                  mean[1], error, sqrt(noise[0] / noise[1]));
     brume_scene_free(s);
+}
+
+/* In a picture alone cells tell what is scattered once, and paths seek the
+ * rest. */
+static void photon_ball__cells_take_noise_and_nothing_else(void **state)
+{
+    (void)state;
+    compare_cells(small_cloud(), 12, 0.25, 4.0);
+}
+
+/* Of what surfaces see, too. */
+static void photon_ball__surfaces_gather_cells(void **state)
+{
+    (void)state;
+    compare_cells(hazy_ball(), 6, 0.0625, 3.0);
 }
 
 /* Soot that is thickest and hottest in its middle, where it glows a thousand
@@ -315,7 +354,7 @@ static void photon_ball__voxels_have_their_share_of_births(void **state)
 static void photon_ball__finds_what_is_thick(void **state)
 {
     (void)state;
-    enum { PLACES = 100000, BALLS = 60 };
+    enum { PLACES = 50000, BALLS = 16 };
     brume_scene *s = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0,
                                  0.45);
     struct brume_medium m = truth_medium(0.0, 1.0, 0.0);
@@ -355,6 +394,7 @@ int main(void)
         cmocka_unit_test(photon_ball__births_light_a_sphere),
         cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
         cmocka_unit_test(photon_ball__cells_take_noise_and_nothing_else),
+        cmocka_unit_test(photon_ball__surfaces_gather_cells),
         cmocka_unit_test(photon_ball__births_are_as_hot_as_the_place),
         cmocka_unit_test(photon_ball__voxels_have_their_share_of_births),
     };
