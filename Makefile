@@ -166,14 +166,16 @@ do-demo: $(B)/brume
 	@echo 'the film $(B)/demo/campfire1.png to campfire8.png; make film joins it.'
 
 # Eight frames, those that are finished left out; as a film where ffmpeg is.
-FILM = $(B)/brume scenes/campfire.ini +W192 +H144 +V --resume +O$(B)/demo/campfire.png
+FILM_WORDS ?= +W192 +H144
+FILM_TO    ?= $(B)/demo
+FILM = $(B)/brume scenes/campfire.ini $(FILM_WORDS) +V --resume +O$(FILM_TO)/campfire.png
 do-film: $(B)/brume
-	@mkdir -p $(B)/demo
+	@mkdir -p $(FILM_TO)
 	$(FILM)
 	@if command -v ffmpeg >/dev/null; then \
-	    ffmpeg -v error -y -framerate 12 -i $(B)/demo/campfire%d.png \
-	        -vf loop=5:8 -pix_fmt yuv420p $(B)/demo/campfire.mp4 && \
-	    echo 'The film is $(B)/demo/campfire.mp4.'; \
+	    ffmpeg -v error -y -framerate 12 -i $(FILM_TO)/campfire%d.png \
+	        -vf loop=5:8 -pix_fmt yuv420p $(FILM_TO)/campfire.mp4 && \
+	    echo 'The film is $(FILM_TO)/campfire.mp4.'; \
 	else echo 'ffmpeg, which would join the frames, is not installed.'; fi
 
 do-test: $(B)/brume $(UNITS) $(TOOLS)
