@@ -1,7 +1,10 @@
 #include "core/cuda/resident.cuh"
 #include <new>
+#include <cstdlib>
 extern "C" {
+#include "lib/chunk.h"
 #include "lib/hash.h"
+#include "lib/memory.h"
 }
 
 namespace
@@ -13,7 +16,9 @@ struct resident {
     resident *next;
     size_t bytes;
     uint64_t hash;
-    void *device;
+    char *device;
+    chunk *piece; /* of its bytes                              */
+    size_t pieces;
     int age; /* frames since it was taken last             */
 };
 
@@ -27,6 +32,13 @@ struct resident_set {
 namespace
 {
 
+void forget(resident *r)
+{
+    cudaFree(r->device);
+    free(r->piece);
+    delete r;
+}
+
 /* Those not taken for more than `age` frames. */
 void drop(resident_set *set, int age)
 {
@@ -38,8 +50,7 @@ void drop(resident_set *set, int age)
             continue;
         }
         *at = r->next;
-        cudaFree(r->device);
-        delete r;
+        forget(r);
     }
 }
 
@@ -60,6 +71,91 @@ bool allocate(resident_set *set, resident *r, brume_error *err)
                         "allocating the frame", err);
 }
 
+/* A piece that the device has. */
+struct place {
+    uint64_t hash;
+    size_t size;
+    const char *device;
+};
+
+int compare(const void *a, const void *b)
+{
+    const place *x = static_cast<const place *>(a),
+                *y = static_cast<const place *>(b);
+    if (x->hash != y->hash)
+        return x->hash < y->hash ? -1 : 1;
+    return (x->size > y->size) - (x->size < y->size);
+}
+
+/* All of them, by their hash; NULL with err set. */
+place *list_places(const resident_set *set, size_t *count, brume_error *err)
+{
+    *count = 0;
+    for (const resident *r = set->first; r; r = r->next)
+        *count += r->pieces;
+    place *list = static_cast<place *>(memory_new(*count, sizeof *list, err));
+    place *to = list;
+    for (const resident *r = set->first; list && r; r = r->next)
+        for (size_t i = 0; i < r->pieces; i++)
+            *to++ = {r->piece[i].hash, r->piece[i].size,
+                     r->device + r->piece[i].from};
+    if (list)
+        qsort(list, *count, sizeof *list, compare);
+    return list;
+}
+
+/* Bytes of neighbouring pieces that go to the device in one copy. */
+struct parcel {
+    size_t from, size;
+    const char *source; /* on the device; NULL: on the host          */
+};
+
+bool send(resident_set *set, const resident *r, const parcel *p,
+          const void *host, brume_error *err)
+{
+    bool there = p->source != nullptr;
+    const char *from = there ? p->source
+                             : static_cast<const char *>(host) + p->from;
+    set->uploaded += there ? 0 : p->size;
+    return p->size == 0 ||
+           device_check(cudaMemcpy(r->device + p->from, from, p->size,
+                                   there ? cudaMemcpyDeviceToDevice
+                                         : cudaMemcpyHostToDevice),
+                        "uploading the scene", err);
+}
+
+bool send_pieces(resident_set *set, const resident *r, const void *host,
+                 const place *places, size_t count, brume_error *err)
+{
+    parcel p = {0, 0, nullptr};
+    for (size_t i = 0; i < r->pieces; i++) {
+        const chunk *c = &r->piece[i];
+        place key = {c->hash, c->size, nullptr};
+        const place *found = static_cast<const place *>(
+            bsearch(&key, places, count, sizeof key, compare));
+        const char *source = found ? found->device : nullptr;
+        bool follows = p.source ? source == p.source + p.size : !source;
+        if (!follows) {
+            if (!send(set, r, &p, host, err))
+                return false;
+            p = {c->from, 0, source};
+        }
+        p.size += c->size;
+    }
+    return send(set, r, &p, host, err);
+}
+
+/* What is there in some other array comes from it. */
+bool fill(resident_set *set, resident *r, const void *host, brume_error *err)
+{
+    size_t count;
+    r->piece = chunk_list(host, r->bytes, &r->pieces, err);
+    place *places = r->piece ? list_places(set, &count, err) : nullptr;
+    bool good = places && send_pieces(set, r, host, places, count, err);
+    free(places);
+    return good;
+}
+
 resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
               brume_error *err)
 {
@@ -70,18 +166,10 @@ resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
     }
     r->bytes = bytes;
     r->hash = hash;
-    if (!allocate(set, r, err)) {
-        delete r;
+    if (!allocate(set, r, err) || !fill(set, r, host, err)) {
+        forget(r);
         return nullptr;
     }
-    if (!device_check(
-            cudaMemcpy(r->device, host, bytes, cudaMemcpyHostToDevice),
-            "uploading the scene", err)) {
-        cudaFree(r->device);
-        delete r;
-        return nullptr;
-    }
-    set->uploaded += bytes;
     r->next = set->first;
     set->first = r;
     return r;

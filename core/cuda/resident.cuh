@@ -1,6 +1,6 @@
 /* resident.cuh - large arrays of a film's scenes that stay on a device from
  * frame to frame: one that has the bytes of one that is there is not uploaded
- * again. */
+ * again, nor the pieces of one that others have. */
 #ifndef CORE_CUDA_RESIDENT_CUH
 #define CORE_CUDA_RESIDENT_CUH
 #include "core/cuda/device.cuh"
