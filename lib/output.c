@@ -151,14 +151,18 @@ static bool is_temporary(const char *name)
            end > 0 && name[end] == '\0';
 }
 
+/* What is locked here is written by nobody; if the name is still its own, it
+ * was left there: who writes keeps the lock until the file has another. */
 static void sweep_one(int folder, const char *name)
 {
-    struct stat st;
+    struct stat st, now;
     int fd = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0)
         return;
     if (fstat(fd, &st) == 0 && S_ISREG(st.st_mode) &&
-        flock(fd, LOCK_EX | LOCK_NB) == 0)
+        flock(fd, LOCK_EX | LOCK_NB) == 0 &&
+        fstatat(folder, name, &now, AT_SYMLINK_NOFOLLOW) == 0 &&
+        now.st_ino == st.st_ino && now.st_dev == st.st_dev)
         unlinkat(folder, name, 0);
     close(fd);
 }
@@ -202,6 +206,8 @@ static void sync_folder(const char *path)
 
 bool output_commit(struct output *o, struct brume_error *err)
 {
+    /* Keeps the lock until the file has its name. */
+    int held = fcntl(fileno(o->stream), F_DUPFD_CLOEXEC, 0);
     errno = 0;
     bool ok = flush_to_disk(o->stream, o->hurried);
     int reason = errno ? errno : EIO;
@@ -213,6 +219,8 @@ bool output_commit(struct output *o, struct brume_error *err)
         ok = false;
         reason = errno;
     }
+    if (held >= 0)
+        close(held);
     if (!ok) {
         fail(o->path, reason, err);
         if (o->temporary)

@@ -1,4 +1,5 @@
 #include <dirent.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -222,6 +223,41 @@ static void test_progress__shows_few_reports(void **state)
     assert_in_range(lines, 3, 5);
 }
 
+static void *sweep_for_long(void *stop)
+{
+    while (!atomic_load((atomic_bool *)stop))
+        output_sweep(path);
+    return NULL;
+}
+
+/* Another run that begins in the folder takes nothing away that is being
+ * written, nor what is just given its name. */
+static void test_output__is_not_swept_away(void **state)
+{
+    (void)state;
+    enum { TIMES = 1500 };
+    atomic_bool stop = false;
+    pthread_t sweeper[2];
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(
+            pthread_create(&sweeper[i], NULL, sweep_for_long, &stop), 0);
+    int failed = 0;
+    for (int i = 0; i < TIMES; i++) {
+        struct brume_error err = {0};
+        struct output *o = output_open(path, &err);
+        if (o) {
+            fputs("text", output_stream(o));
+            output_hurry(o);
+        }
+        failed += !o || !output_commit(o, &err);
+    }
+    atomic_store(&stop, true);
+    for (int i = 0; i < 2; i++)
+        pthread_join(sweeper[i], NULL);
+    assert_int_equal(failed, 0);
+    assert_content(path, "text");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_output__keeps_permissions_and_links),
         cmocka_unit_test(test_output__error_names_path_and_reason),
         cmocka_unit_test(test_output__full_disk_is_an_error),
+        cmocka_unit_test(test_output__is_not_swept_away),
         cmocka_unit_test(test_thread__runs_each_index_once),
         cmocka_unit_test(test_thread__cancel_stops),
         cmocka_unit_test(test_progress__line_tells_what_is_left),
