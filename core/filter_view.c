@@ -251,49 +251,6 @@ static void load_around(const struct filter_view *v, const float place[3],
             }
 }
 
-/* The weights of the three cells of an axis for the first cell of a block, or
- * the second. */
-static void weights_of(float fraction, int second, float weight[3])
-{
-    weight[0] = second ? 0.0f : 1.0f - fraction;
-    weight[1] = second ? 1.0f - fraction : fraction;
-    weight[2] = second ? fraction : 0.0f;
-}
-
-/* A cell of a block some of whose surroundings are not there. */
-static bool mix_around(const struct around *a, int numbers, int cell,
-                       float *out)
-{
-    float x[3], y[3], z[3], sum[FILTER_MAX_NUMBERS] = {0}, weights = 0.0f;
-    weights_of(a->fraction[0], cell & 1, x);
-    weights_of(a->fraction[1], cell >> 1 & 1, y);
-    weights_of(a->fraction[2], cell >> 2, z);
-    for (int k = 0; k < 27; k++) {
-        float weight = x[k % 3] * y[k / 3 % 3] * z[k / 9];
-        if (!a->cell[k] || !(weight > 0.0f))
-            continue;
-        weights += weight;
-        for (int i = 0; i < numbers; i++)
-            sum[i] += weight * a->cell[k][i];
-    }
-    if (!(weights >= 0.5f))
-        return false;
-    for (int i = 0; i < numbers; i++)
-        out[i] = sum[i] / weights;
-    return true;
-}
-
-static void put_around(const struct around *a, int numbers, int block,
-                       struct filter_room *room)
-{
-    for (int k = 0; k < 8; k++) {
-        int cell = cell_of_block(block, k);
-        put_cell(room, cell, numbers,
-                 a->count > 0 &&
-                     mix_around(a, numbers, k, room->cells + cell * numbers));
-    }
-}
-
 /* Between each number and that so many behind it; more than are asked for,
  * since a loop without gaps is faster. */
 static inline void blend(const float *restrict from, int count, int behind,
@@ -303,35 +260,85 @@ static inline void blend(const float *restrict from, int count, int behind,
         to[i] = from[i] + t * (from[i + behind] - from[i]);
 }
 
-/* A block whose surroundings are all there: along x, y, z. */
-static inline void blend_around(const struct around *a, int numbers, int block,
-                                struct filter_room *room)
+enum { MOST = FILTER_MAX_NUMBERS + 1 };
+
+/* Between 3^3 cells of so many numbers, along x, y, z; returns where a block's
+ * own begin, with rows of 3 and layers of 9 cells. */
+static inline const float *blend_cells(float p[27 * MOST], float q[27 * MOST],
+                                       int numbers, const float fraction[3])
 {
-    float p[27 * FILTER_MAX_NUMBERS], q[26 * FILTER_MAX_NUMBERS];
-    int row = 3 * numbers, layer = 9 * numbers;
+    blend(p, 26 * numbers, numbers, fraction[0], q);
+    blend(q, 23 * numbers, 3 * numbers, fraction[1], p);
+    blend(p, 14 * numbers, 9 * numbers, fraction[2], q);
+    return q;
+}
+
+static int place_in(int cell)
+{
+    return (cell & 1) + 3 * (cell >> 1 & 1) + 9 * (cell >> 2);
+}
+
+/* A block whose surroundings are all there. */
+static inline void put_whole(const struct around *a, int numbers, int block,
+                             struct filter_room *room)
+{
+    float p[27 * MOST], q[27 * MOST];
     for (int k = 0; k < 27; k++)
         for (int i = 0; i < numbers; i++)
             p[k * numbers + i] = a->cell[k][i];
-    blend(p, 26 * numbers, numbers, a->fraction[0], q);
-    blend(q, 23 * numbers, row, a->fraction[1], p);
-    blend(p, 14 * numbers, layer, a->fraction[2], q);
+    const float *x = blend_cells(p, q, numbers, a->fraction);
     for (int k = 0; k < 8; k++) {
-        const float *from = q + (k & 1) * numbers + (k >> 1 & 1) * row +
-                            (k >> 2) * layer;
         int cell = cell_of_block(block, k);
         for (int i = 0; i < numbers; i++)
-            room->cells[cell * numbers + i] = from[i];
+            room->cells[cell * numbers + i] = x[place_in(k) * numbers + i];
         room->there[cell] = 1.0f;
     }
 }
 
-static void put_whole(const struct around *a, int numbers, int block,
+/* One some of whose surroundings are not there: their weights are one number
+ * more. */
+static inline void put_part(const struct around *a, int numbers, int block,
+                            struct filter_room *room)
+{
+    float p[27 * MOST], q[27 * MOST];
+    int all = numbers + 1;
+    for (int k = 0; k < 27; k++) {
+        const float *from = a->cell[k];
+        for (int i = 0; i < numbers; i++)
+            p[k * all + i] = from ? from[i] : 0.0f;
+        p[k * all + numbers] = from ? 1.0f : 0.0f;
+    }
+    const float *x = blend_cells(p, q, all, a->fraction);
+    for (int k = 0; k < 8; k++) {
+        const float *from = x + place_in(k) * all;
+        int cell = cell_of_block(block, k);
+        bool there = from[numbers] >= 0.5f;
+        for (int i = 0; there && i < numbers; i++)
+            room->cells[cell * numbers + i] = from[i] / from[numbers];
+        put_cell(room, cell, numbers, there);
+    }
+}
+
+static void put_nothing(int numbers, int block, struct filter_room *room)
+{
+    for (int k = 0; k < 8; k++)
+        put_cell(room, cell_of_block(block, k), numbers, false);
+}
+
+/* With the numbers known, loops over them are none. */
+static void put_block(const struct around *a, int numbers, int block,
                       struct filter_room *room)
 {
-    if (numbers == 3)
-        blend_around(a, 3, block, room);
+    if (a->count == 0)
+        put_nothing(numbers, block, room);
+    else if (a->count == 27 && numbers == 3)
+        put_whole(a, 3, block, room);
+    else if (a->count == 27)
+        put_whole(a, numbers, block, room);
+    else if (numbers == 3)
+        put_part(a, 3, block, room);
     else
-        blend_around(a, numbers, block, room);
+        put_part(a, numbers, block, room);
 }
 
 static bool fill_moved(const struct filter_view *v,
@@ -341,13 +348,11 @@ static bool fill_moved(const struct filter_view *v,
     int numbers = v->field->lattice.numbers;
     bool any = false;
     for (int b = 0; b < FILTER_BLOCKS; b++) {
-        struct around around = {.count = 0};
+        struct around around;
+        around.count = 0;
         if (!isnan(places->first[b][0]))
             load_around(v, places->first[b], &around);
-        if (around.count == 27)
-            put_whole(&around, numbers, b, room);
-        else
-            put_around(&around, numbers, b, room);
+        put_block(&around, numbers, b, room);
         any = any || around.count > 0;
     }
     return any;

@@ -164,7 +164,7 @@ def kill_row(films, scene, integrator):
     films.finish(scene, "part", words)
     good, count = films.same("part", "whole")
     return {"what": "film, SIGKILL", "how": integrator,
-            "seconds": round(seconds, 2), "kept": kills,
+            "seconds": round(seconds, 2), "kills": kills,
             "same": f"{good} of {FRAMES}", "torn": torn,
             "passed": good == count == FRAMES and torn == 0 and kills > 2}
 
@@ -203,7 +203,7 @@ def upload_row(films):
     sent = [f["uploaded"] / 2**20 for f in frames]
     later = max(sent[2:])
     return {"what": "meshes, MiB a frame", "how": "path",
-            "kept": round(sent[0], 1), "ms": round(later, 2),
+            "first": round(sent[0], 1), "later": round(later, 1),
             "passed": later < 0.62 * sent[0]}
 
 
@@ -221,4 +221,5 @@ def rows(brume, room, bench):
     out.append(upload_row(films))
     return [{key: row.get(key, "") for key in
              ("what", "how", "seconds", "codes", "worst ms", "kept", "same",
-              "torn", "ms", "share %", "passed")} for row in out]
+              "kills", "torn", "ms", "share %", "first", "later", "passed")}
+            for row in out]
