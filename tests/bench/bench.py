@@ -1,34 +1,47 @@
 #!/usr/bin/env python3
-"""The nine scenes that stand for those of Cha, Yi, Ihm 2010, beside its times.
+"""The scenes that stand for those of Cha, Yi, Ihm 2010, beside its times.
 
     tests/bench/bench.py [--budget S] [--jobs N] [--threads N] [--scale F]
-                         [--backend NAME] [--out DIR] [NAME...]
+                         [--samples N] [--gpu PROGRAM] [--gpu-seconds S]
+                         [--references] [--data DIR] [--out DIR] [NAME...]
 
-Makes the grids in $B/bench, then measures each scene at its published size
-with `brume measure`, for S seconds each (60), N at a time (1). References are
-those of $B/bench/reference/NAME.exr where they are, and else their own. Then
-it renders the integrator photon as it comes, and with the published choices
-and numbers of photons, each from two seeds, whose difference tells the noise.
-It leaves bench.json, the tables and plots of `measure` and a page of them in DIR
-(tests/bench/results). No number in them is typed by hand but the published.
+Makes the grids in DIR ($B/bench) where they are not there, and for each scene
+at its published size
+
+    two references by `path`, NAME-1.exr and NAME-2.exr in DIR/reference, if
+    they are not there: by PROGRAM, a brume with CUDA, up to S seconds each, or
+    on the processor for half of the budget each;
+    pictures by `photon` with a million photons, 4 samples a pixel and --samples
+    (16), by `preset paper` with the published number of photons and 4 samples, and by
+    `path` for half of the budget (60), each from two seeds;
+    `brume measure` for the budget, if that is 60 or more, for the plot.
+
+Two seeds against two references tell error, bias and noise apart
+(tests/tools/judge.h). N scenes are measured at a time (1), each with so many
+threads (2), on processors of its own if there are several, in the order of the
+names. --references stops behind these. Leaves bench.json, bench.svg, README.md and what `measure` makes
+in the folder of --out (tests/bench/results). No number there is typed by hand
+but the published.
 """
 import argparse
-import concurrent.futures
-import csv
 import json
 import math
 import os
 import platform
+import queue
 import re
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 B = os.path.join(ROOT, os.environ.get("B", "build"))
 BRUME = os.environ.get("BRUME", os.path.join(B, "brume"))
 DATA = os.path.join(B, "bench")
-GOALS = [0.10, 0.03, 0.01]
+GOALS = [0.03, 0.01]
+GPU = threading.Lock()
 
 
 class Scene:
@@ -65,15 +78,15 @@ SCENES = [
 ]
 
 
-def make_grids():
+def make_grids(data):
     """Only where grids.c or noise.h is younger than what it made."""
-    made = os.path.join(DATA, "grids.txt")
+    made = os.path.join(data, "grids.txt")
     sources = [os.path.join(HERE, f) for f in ("grids.c", "noise.h")]
     if os.path.exists(made) and all(
             os.path.getmtime(made) >= os.path.getmtime(s) for s in sources):
         return
-    os.makedirs(DATA, exist_ok=True)
-    text = subprocess.run([os.path.join(B, "tests/bench/grids"), DATA],
+    os.makedirs(data, exist_ok=True)
+    text = subprocess.run([os.path.join(B, "tests/bench/grids"), data],
                           check=True, capture_output=True, text=True).stdout
     with open(made, "w") as f:
         f.write(text)
@@ -82,119 +95,195 @@ def make_grids():
 # ---- measuring
 
 
-def size_of(scene, scale):
-    return [max(8, round(side * scale)) for side in scene.size]
+def size_of(scene, options):
+    return [max(8, round(side * options.scale)) for side in scene.size]
 
 
 def words_of(scene, options):
-    width, height = size_of(scene, options.scale)
-    words = [os.path.join(HERE, scene.file), "+L" + DATA, f"+W{width}",
-             f"+H{height}", "--backend", options.backend, *scene.switches]
-    if options.threads:
-        words += ["--threads", str(options.threads)]
-    return words
+    width, height = size_of(scene, options)
+    return [os.path.join(HERE, scene.file), "+L" + options.data, f"+W{width}",
+            f"+H{height}", *scene.switches]
 
 
-def measure(scene, options):
-    width, height = size_of(scene, options.scale)
+def run(words, path):
+    """One picture: its numbers."""
+    stats = path + ".json"
+    subprocess.run(words + ["+O" + path, "--stats", stats, "-V"], check=True)
+    with open(stats) as f:
+        frame = json.load(f)["frames"][0]
+    s, photons = frame["seconds"], frame.get("photons", {})
+    return {"prepare": s["prepare"], "photons": photons.get("seconds", 0),
+            "render": s["render"], "spp": frame["spp"],
+            "seconds": s["prepare"] + photons.get("seconds", 0) + s["render"],
+            "cells": photons.get("cells", 0),
+            "open": photons.get("books", {}).get("rest", 0)}
+
+
+def references(scene, options):
+    """Two pictures, and by what they were made."""
+    folder = os.path.join(options.data, "reference")
+    os.makedirs(folder, exist_ok=True)
+    paths = [os.path.join(folder, f"{scene.name}-{i}.exr") for i in (1, 2)]
+    for i, path in enumerate(paths):
+        if os.path.exists(path):
+            continue
+        words = words_of(scene, options) + [
+            "--integrator", "path", "--spp", "65536", "--seed", str(11 + i)]
+        if options.gpu:
+            with GPU:
+                run([options.gpu, *words, "--backend", "cuda", "--time",
+                     str(options.gpu_seconds)], path)
+        else:
+            run([BRUME, *words, "--threads", str(options.threads), "--time",
+                 str(options.budget / 2)], path)
+    return paths
+
+
+def draw(scene, options, cores, label, *switches):
+    """Two seeds: the quicker one's numbers, and the pictures."""
+    paths = [os.path.join(options.data, f"{scene.name}-{label}-{seed}.exr")
+             for seed in (1, 2)]
+    runs = [run([*cores, BRUME, *words_of(scene, options), "--threads",
+                 str(options.threads), *switches, "--seed", str(seed)], path)
+            for seed, path in zip((1, 2), paths)]
+    return dict(min(runs, key=lambda r: r["seconds"]), pictures=paths,
+                switches=" ".join(switches))
+
+
+def judge(drawn, true):
+    """With what the pictures tell beside the references."""
+    tool = os.path.join(B, "tests/tools/compare")
+    told = subprocess.run([tool, "judge", *true, *drawn.pop("pictures")],
+                          check=True, text=True, capture_output=True).stdout
+    return dict(drawn, **json.loads(told))
+
+
+def plot(scene, options, true, cores):
+    """Error against time, by `brume measure`."""
+    if options.budget < 60:
+        return None
     out = os.path.join(options.out, scene.name)
-    words = [BRUME, "measure", *words_of(scene, options), "+O" + out,
-             "--budget", str(options.budget)]
-    reference = os.path.join(DATA, "reference", scene.name + ".exr")
-    if os.path.exists(reference):
-        words += ["--reference", reference]
-    done = subprocess.run(words, capture_output=True, text=True)
+    done = subprocess.run(
+        [*cores, BRUME, "measure", *words_of(scene, options), "--threads",
+         str(options.threads), "+O" + out, "--budget", str(options.budget),
+         "--reference", true[0]], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{scene.name}: status {done.returncode}\n{done.stderr}")
-    own = out + "-reference.exr"
-    if os.path.exists(own):
-        reference = os.path.join(DATA, scene.name + "-own.exr")
-        os.replace(own, reference)
-    result = read(scene, out + ".csv", (width, height), done.stdout)
-    noise = result["reference_noise"] or 0
-    result["photon"] = judge(scene, options, reference, noise,
-                             "--photons", "1000000", "--spp", "64")
-    result["paper"] = judge(scene, options, reference, noise, "--preset",
-                            "paper", "--photons", str(scene.photons), "--spp",
-                            "16")
-    print(scene.name, "done", flush=True)
-    return result
+    return re.findall(r"^for +(\d+) %: (.*)$", done.stdout, re.M)
 
 
-# ---- photons as they come, and as published
+def draw_all(scene, options, pin):
+    photon = ["--integrator", "photon", "--photons", "1000000", "--spp"]
+    return {"few": draw(scene, options, pin, "few", *photon, "4"),
+            "many": draw(scene, options, pin, "many", *photon,
+                         str(options.samples)),
+            "paper": draw(scene, options, pin, "paper", "--integrator",
+                          "photon", "--preset", "paper", "--photons",
+                          str(scene.photons), "--spp", "4"),
+            "path": draw(scene, options, pin, "path", "--integrator", "path",
+                         "--spp", "65536", "--time", str(options.budget / 2))}
 
 
-def compare(*words):
-    tool = os.path.join(B, "tests/tools/compare")
-    return float(subprocess.run([tool, *map(str, words)], check=True, text=True,
-                                capture_output=True).stdout)
+def measure(scene, cores, options):
+    """With references that a GPU makes meanwhile."""
+    pin = ["taskset", "-c", cores] if cores else []
+    with ThreadPoolExecutor(1) as beside:
+        true = beside.submit(references, scene, options)
+        if options.references or not options.gpu:
+            true.result()
+        drawn = {} if options.references else draw_all(scene, options, pin)
+        true = true.result()
+    if options.references:
+        return None
+    r = {"name": scene.name, "what": scene.what, "size": size_of(scene, options),
+         "published": scene.published}
+    r.update({label: judge(d, true) for label, d in drawn.items()})
+    r["advice"] = plot(scene, options, true, pin)
+    print(json.dumps(r), flush=True)
+    return r
 
 
-def judge(scene, options, reference, reference_noise, *switches):
-    """Two pictures of two seeds: their difference is sqrt(2) of their noise,
-    what they share of the difference from the reference is bias."""
-    width, height = size_of(scene, options.scale)
-    whole = (0, 0, width, height)
-    seconds, cpu, picture, mean = [], [], [], []
-    for seed in (1, 2):
-        path = os.path.join(DATA, f"{scene.name}-{seed}.exr")
-        stats = path + ".json"
-        run = subprocess.Popen([BRUME, *words_of(scene, options),
-                                "--integrator", "photon", *switches, "--seed",
-                                str(seed), "+O" + path, "--stats", stats])
-        _, status, used = os.wait4(run.pid, 0)
-        if status != 0:
-            sys.exit(f"{scene.name}: {' '.join(switches)}: status {status}")
-        with open(stats) as f:
-            frame = json.load(f)["frames"][0]
-        seconds.append(frame["seconds"]["prepare"] +
-                       frame["seconds"]["render"] +
-                       frame.get("photons", {}).get("seconds", 0))
-        cpu.append(used.ru_utime + used.ru_stime - frame["seconds"]["parse"])
-        picture.append(path)
-        mean.append(compare("mean", path, *whole))
-    noise = compare("relrmse", *picture) / 2 ** 0.5
-    square = sum(compare("relrmse", p, reference) ** 2 for p in picture) / 2
-    true = compare("mean", reference, *whole)
-    return {"switches": " ".join(switches), "seconds": min(seconds),
-            "cpu_seconds": min(cpu), "noise": noise,
-            "error": max(square - reference_noise ** 2, 0) ** 0.5,
-            "bias": max(square - reference_noise ** 2 - noise ** 2, 0) ** 0.5,
-            "mean_bias": sum(mean) / 2 / true - 1}
+# ---- what is needed for an error
 
 
-def read(scene, path, size, printed):
-    with open(path, newline="") as f:
-        rows = [{key: number(value) for key, value in row.items()}
-                for row in csv.DictReader(f)]
-    noise = rows[0]["reference_noise"] if rows else None
-    advice = re.findall(r"^for +(\d+) %: (.*)$", printed, re.M)
-    return {"name": scene.name, "what": scene.what, "size": size,
-            "published_seconds": scene.published,
-            "reference_noise": noise if noise != "" else None,
-            "reference": printed.split("\n", 1)[0].replace(ROOT + "/", ""),
-            "rows": rows, "advice": {f"{g} %": text for g, text in advice}}
-
-
-def number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
+def seconds_for(r, goal):
+    """Of path and of photon; None where bias is in the way. What falls with
+    the samples of a pixel is told by few and many; the rest of the noise falls
+    with the photons. Where neither does, the cheapest numbers of both that
+    would. No bias counts as less than the mean is off."""
+    path = r["path"]["prepare"] + r["path"]["render"] * \
+        (r["path"]["error"] / goal) ** 2
+    few, many = r["few"], r["many"]
+    bias = max(many["bias"], abs(many["off"]))
+    for k in (few, many):
+        if math.hypot(bias, k["noise"]) <= goal:
+            return path, k["seconds"]
+    room = goal ** 2 - bias ** 2
+    if room <= 0:
+        return path, None
+    pixels = max(few["noise"] ** 2 - many["noise"] ** 2, 0) / \
+        (1 / few["spp"] - 1 / many["spp"])
+    rest = max(many["noise"] ** 2 - pixels / many["spp"], 0)
+    each = many["render"] / many["spp"]
+    a, b = math.sqrt(rest * many["photons"]), math.sqrt(pixels * each)
+    samples = max(math.sqrt(pixels / each) * (a + b) / room, 1)
+    photons = rest / max(room - pixels / samples, 1e-12)
+    return path, many["prepare"] + photons * many["photons"] + samples * each
 
 
 # ---- the page
 
 
-def in_time(result):
-    """The best row that took no longer than the paper."""
-    rows = [r for r in result["rows"]
-            if r["seconds"] <= result["published_seconds"]]
-    return min(rows, key=lambda r: r["error"]) if rows else None
-
-
 def percent(error):
     return f"{100 * error:.3g} %"
+
+
+def seconds(s):
+    return "not reached" if s is None else f"{s:.3g} s"
+
+
+def bias_of(k):
+    """With the most that chance leaves it."""
+    return f"{percent(max(k['bias'], 0))} (≤ {percent(k['bias_most'])})"
+
+
+def off_of(k):
+    return f"{100 * k['off']:+.2f} ± {100 * k['off_doubt']:.2f} %"
+
+
+def error_table(results):
+    yield ("| scene | `photon`, many samples: error | of it noise | bias | mean "
+           "off | `preset paper`: error | bias | mean off | books open by "
+           "| noise of the references |")
+    yield "|---" * 10 + "|"
+    for r in results:
+        k, p = r["many"], r["paper"]
+        yield "| " + " | ".join(
+            [r["name"], percent(k["error"]), percent(k["noise"]), bias_of(k),
+             off_of(k), percent(p["error"]), bias_of(p), off_of(p),
+             f"{max(abs(k['open']), abs(p['open'])):.1g}",
+             percent(k["reference_noise"])]) + " |"
+
+
+def time_table(results):
+    yield ("| scene | paper, GTX 280 | `preset paper` | `photon`, 4 samples "
+           "| many | " +
+           " | ".join(f"`path` for {100 * g:g} % | `photon` | times"
+                      for g in GOALS) + " |")
+    yield "|---" * (5 + 3 * len(GOALS)) + "|"
+    for r in results:
+        cells = [r["name"], f"{r['published']} s", seconds(r["paper"]["seconds"]),
+                 seconds(r["few"]["seconds"]), seconds(r["many"]["seconds"])]
+        for goal in GOALS:
+            path, photon = seconds_for(r, goal)
+            cells += [seconds(path), seconds(photon),
+                      f"{path / photon:.2g}" if photon else ""]
+        yield "| " + " | ".join(cells) + " |"
+
+
+def gpu_name():
+    said = subprocess.run(["nvidia-smi", "-L"], capture_output=True, text=True)
+    return re.sub(r"^GPU \\d+: ", "", said.stdout.split(" (")[0]).strip()
 
 
 def machine(options):
@@ -205,133 +294,103 @@ def machine(options):
     except (OSError, AttributeError):
         pass
     return {"processor": name, "processors": os.cpu_count(),
-            "threads": options.threads or os.cpu_count(),
-            "jobs": options.jobs, "budget": options.budget,
-            "scale": options.scale, "load": os.getloadavg()[2],
+            "threads": options.threads, "jobs": options.jobs,
+            "budget": options.budget, "scale": options.scale,
+            "samples": options.samples,
+            "gpu": gpu_name() if options.gpu else None,
             "version": subprocess.run([BRUME, "--version"], text=True,
                                       capture_output=True).stdout.strip()}
 
 
-def cell(advice):
-    """'--integrator path --spp 64 (3 s, extrapolated)' as time and switches."""
-    found = re.match(r"(.*) \(([\d.e+-]+) s(, extrapolated)?\)", advice)
-    if not found:
-        return advice
-    switches = found.group(1).replace("--integrator ", "").replace("--", "")
-    mark = "≈ " if found.group(3) else ""
-    return f"{mark}{found.group(2)} s: {switches}"
-
-
-def seconds_for(rows, goal):
-    """Of one series: the quickest row as good, or along the slope of the last
-    rows, at most sixteen times as long where a bias may be left."""
-    good = [r["cpu_seconds"] for r in rows if r["error"] <= goal]
-    if good:
-        return min(good)
-    rows = [r for r in rows if r["error"] > 0][-3:]
-    if not rows:
-        return None
-    last, slope = rows[-1], -0.5 if rows[-1]["series"] == "path" else 0
-    if len(rows) > 1 and last["series"] != "path" and \
-            last["error"] < rows[0]["error"]:
-        slope = max(-0.5, math.log(last["error"] / rows[0]["error"]) /
-                    math.log(last["cpu_seconds"] / rows[0]["cpu_seconds"]))
-    if slope > -0.1:
-        return None
-    factor = (last["error"] / goal) ** (-1 / slope)
-    if last["series"].startswith("photon") and factor > 16:
-        return None
-    return factor * last["cpu_seconds"]
-
-
-def gain(result, goal):
-    """How much longer path takes than the best of the others."""
-    series = {}
-    for row in result["rows"]:
-        series.setdefault(row["series"], []).append(row)
-    seconds = {n: seconds_for(rows, goal) for n, rows in series.items()}
-    path = seconds.pop("path", None)
-    best = min((s, n) for n, s in seconds.items() if s) \
-        if any(seconds.values()) else None
-    if not path or not best:
-        return "none known"
-    return f"{path / best[0]:.2g}: {best[1]}"
-
-
-def photon_table(results):
-    yield ("| scene | paper, GTX 280 | photon, 1 M photons, 64 samples | error | bias "
-           "| mean off | preset paper, its photons, 16 samples | error | bias | mean off "
-           "| gain over path at 3 % | at 1 % |")
-    yield "|---" * 12 + "|"
-    for r in results:
-        cells = [r["name"], f"{r['published_seconds']} s"]
-        for kind in ("photon", "paper"):
-            k = r[kind]
-            cells += [f"{k['cpu_seconds']:.3g} s", percent(k["error"]),
-                      percent(k["bias"]), f"{100 * k['mean_bias']:+.2f} %"]
-        cells += [gain(r, 0.03), gain(r, 0.01)]
-        yield "| " + " | ".join(cells) + " |"
-
-
-def table(results):
-    yield ("| scene | paper, GTX 280 | ours in no more time | error "
-           "| " + " | ".join(f"for {100 * g:g} %" for g in GOALS) +
-           " | reference's noise |")
-    yield "|---" * (5 + len(GOALS)) + "|"
-    for r in results:
-        best = in_time(r)
-        ours = (f"{best['seconds']:.3g} s: " +
-                best["switches"].replace("--integrator ", "").replace("--", "")
-                if best else "nothing")
-        noise = r["reference_noise"]
-        yield (f"| [{r['name']}](#{r['name']}) | {r['published_seconds']} s "
-               f"| {ours} | {percent(best['error']) if best else ''} | " +
-               " | ".join(cell(r["advice"].get(f"{100 * g:g} %", ""))
-                          for g in GOALS) +
-               f" | {percent(noise) if noise is not None else 'unknown'} |")
-
-
 def page(data):
     m, results = data["machine"], data["results"]
-    yield "# The nine scenes"
+    yield "# The published scenes"
     yield ""
-    scale = m["scale"]
-    yield ("Made by `make bench`. Scenes that stand for those of Cha, Yi, Ihm "
-           "2010, at " + ("their published sizes" if scale == 1 else
-                          f"{scale:g} of the width and height published, so "
-                          f"with {scale * scale:g} of the pixels and as many "
-                          "photons") +
-           "; the paper's seconds are its GPU's, and it tells no error. Ours: "
-           f"{m['version']} on {m['threads']} threads of {m['processor']}, "
-           f"{m['jobs']} scenes at a time, where {m['load']:.1f} threads "
-           "wanted to run. "
-           "Errors are relRMSE against a reference, less its noise; "
-           "times are of a whole picture, without reading the scene. "
-           "≈: extrapolated.")
+    yield ("Made by `make bench` (`tests/bench/bench.py`). Scenes that stand "
+           "for those of Cha, Yi, Ihm 2010, at " +
+           ("their published sizes" if m["scale"] == 1 else
+            f"{m['scale']:g} of their width and height") +
+           f", by {m['version']} on {m['threads']} threads of "
+           f"{m['processor']}, {m['jobs']} scenes at a time. `photon` has a "
+           f"million photons and 4 or many ({m['samples']}) samples a pixel, "
+           "`preset paper` the published number and 4"
+           f"{', the references are of ' + m['gpu'] if m['gpu'] else ''}. "
+           "Errors are relRMSE without the noise of the references; "
+           "the bias is without the noise of the pictures too, and in brackets "
+           "the most that two standard errors of it leave.")
     yield ""
-    yield from table(results)
+    yield from error_table(results)
     yield ""
-    yield "## Photons"
+    yield ("Seconds of a whole picture, without reading the scene. For an "
+           "error they are those of 4 or of many samples where these do. Else "
+           "they are told from both: what does not fall with samples falls "
+           "with photons, and the cheapest of both is taken; `path` from what "
+           f"{m['budget'] / 2:g} seconds make. No bias counts as less than the "
+           "mean is off. The paper tells no error of its pictures.")
     yield ""
-    yield ("Two seeds of each. The error has the reference's noise taken off, "
-           "the bias that of the pictures too; it can't be told where it is "
-           "less than half of the reference's noise, in the last column above. "
-           "The mean is over all pixels. Seconds here are of the processor, all "
-           "threads together. The last columns: how many times as many of them "
-           "`path` takes for an error, and what takes the least.")
+    yield from time_table(results)
     yield ""
-    yield from photon_table(results)
+    yield "![error against seconds](bench.svg)"
     for r in results:
+        if not r["advice"]:
+            continue
         yield ""
         yield f"## {r['name']}"
         yield ""
-        yield (f"{r['what']}; {r['size'][0]} x {r['size'][1]}. "
-               f"{r['reference'][0].upper()}{r['reference'][1:]}.")
+        yield f"{r['what']}; {r['size'][0]} x {r['size'][1]}."
+        yield ""
+        for goal, advice in r["advice"]:
+            yield f"- for {goal} %: {advice}"
         yield ""
         yield f"![error against time]({r['name']}.svg)"
 
 
+# ---- the plot: error against seconds, both by their logarithms
+
+COLORS = ["#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377",
+          "#777777", "#000000", "#997700", "#004488", "#bb5566"]
+WIDE, HIGH, EDGE = 720, 420, 50
+
+
+def place(k):
+    """From 1 to 1000 s, and from 0.3 to 100 %."""
+    x = math.log10(max(k["seconds"], 1)) / 3
+    y = (math.log10(max(k["error"], 0.003)) + 2.52) / 2.52
+    return EDGE + x * (WIDE - 200), HIGH - EDGE - y * (HIGH - 2 * EDGE)
+
+
+def svg(results):
+    yield (f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDE}" '
+           f'height="{HIGH}" font-family="sans-serif" font-size="12">')
+    yield f'<rect width="{WIDE}" height="{HIGH}" fill="white"/>'
+    for power in range(4):
+        x, _ = place({"seconds": 10 ** power, "error": 1})
+        yield (f'<path d="M{x:.1f} {EDGE}V{HIGH - EDGE}" stroke="#ddd"/>'
+               f'<text x="{x:.1f}" y="{HIGH - 30}">{10 ** power} s</text>')
+    for error in (0.01, 0.03, 0.1, 0.3, 1):
+        _, y = place({"seconds": 1, "error": error})
+        yield (f'<path d="M{EDGE} {y:.1f}H{WIDE - 150}" stroke="#ddd"/>'
+               f'<text x="4" y="{y + 4:.1f}">{100 * error:g} %</text>')
+    for i, r in enumerate(results):
+        color = COLORS[i % len(COLORS)]
+        (a, b), (c, d) = place(r["few"]), place(r["many"])
+        (e, f), (g, h) = place(r["paper"]), place(r["path"])
+        yield (f'<g stroke="{color}" fill="{color}">'
+               f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}"/>'
+               f'<circle cx="{a:.1f}" cy="{b:.1f}" r="3"/>'
+               f'<circle cx="{c:.1f}" cy="{d:.1f}" r="3"/>'
+               f'<path d="M{e - 4:.1f} {f + 3:.1f}h8l-4 -7z"/>'
+               f'<path fill="none" d="M{g - 4:.1f} {h - 4:.1f}l8 8m0 -8l-8 8"/>'
+               f'</g><text x="{WIDE - 140}" y="{EDGE + 16 * i}" '
+               f'fill="{color}">{r["name"]}</text>')
+    yield (f'<text x="{EDGE}" y="20">dots: photon, few and many samples; '
+           'triangles: preset paper; crosses: path</text>')
+    yield "</svg>"
+
+
 def write(options, data):
+    with open(os.path.join(options.out, "bench.svg"), "w") as f:
+        f.write("\n".join(svg(data["results"])) + "\n")
     with open(os.path.join(options.out, "bench.json"), "w") as f:
         json.dump(data, f, indent=1)
         f.write("\n")
@@ -339,23 +398,48 @@ def write(options, data):
         f.write("\n".join(page(data)) + "\n")
 
 
+def measure_all(scenes, options):
+    free = queue.Queue()
+    for i in range(options.jobs):
+        first = i * options.threads
+        free.put(f"{first}-{first + options.threads - 1}"
+                 if options.jobs > 1 else None)
+    results = []
+
+    def work(scene):
+        cores = free.get()
+        try:
+            r = measure(scene, cores, options)
+        finally:
+            free.put(cores)
+        if r:
+            results.append(r)
+            results.sort(key=lambda r: [s.name for s in scenes].index(r["name"]))
+            write(options, {"machine": machine(options), "results": results})
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(work, sorted(scenes, key=lambda s: options.names.index(
+            s.name) if options.names else 0)))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--budget", type=float, default=60)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--scale", type=float, default=1)
-    parser.add_argument("--backend", default="auto")
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--gpu")
+    parser.add_argument("--gpu-seconds", type=float, default=15)
+    parser.add_argument("--references", action="store_true")
+    parser.add_argument("--data", default=DATA)
     parser.add_argument("--out", default=os.path.join(HERE, "results"))
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
     os.makedirs(options.out, exist_ok=True)
-    make_grids()
-    scenes = [s for s in SCENES if not options.names or
-              s.name in options.names]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(lambda s: measure(s, options), scenes))
-    write(options, {"machine": machine(options), "results": results})
+    make_grids(options.data)
+    measure_all([s for s in SCENES if not options.names or
+                 s.name in options.names], options)
 
 
 if __name__ == "__main__":

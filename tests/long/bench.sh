@@ -7,21 +7,25 @@ json=$ROOT/${B:-build}/tests/tools/json
 
 new_case 'two scenes are measured'
 out=$PWD/results
-(cd "$ROOT" && BRUME=$BRUME tests/bench/bench.py --budget 2 --scale 0.05 \
-    --out "$out" t1-fog t4-smoke) >printed 2>said
+(cd "$ROOT" && BRUME=$BRUME tests/bench/bench.py --budget 4 --scale 0.05 \
+    --samples 8 --data "$out/data" --out "$out" t1-fog t4-smoke) >printed 2>said
 took $?
 exits 0
 has results/bench.json results/README.md
-for name in t1-fog t4-smoke; do
-    has results/$name.csv results/$name.svg
-done
+has results/bench.svg
 
 new_case 'JSON and page tell of both'
-published=$("$json" results/bench.json results 1 published_seconds)
+published=$("$json" results/bench.json results 1 published)
 is "${published%%0*}" 4.45
-is "$(grep -c '^| \[t' results/README.md)" 2
-grep -q 'path spp' results/README.md || complain 'no switches'
-python3 -c 'import json; json.load(open("results/bench.json"))' ||
-    complain 'no JSON'
+is "$(grep -c '^| t' results/README.md)" 4
+python3 - <<'P' || complain 'what is measured makes no sense'
+import json
+for r in json.load(open("results/bench.json"))["results"]:
+    for k in ("few", "many", "paper", "path"):
+        d = r[k]
+        assert d["seconds"] > 0 and 0 < d["noise"] < 1 and abs(d["off"]) < 0.3
+        assert abs(d["open"]) < 1e-5
+    assert r["many"]["noise"] < r["few"]["noise"]
+P
 
 end_cases
