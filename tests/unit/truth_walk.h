@@ -12,31 +12,17 @@
  *   density over all of its interval, and the path carries the ratio of the
  *   two: longer flights toward it, directions, less absorption. A step that
  *   makes the wrong thing of its numbers is found out all the same.
- * - Paths are split, or ended at random, by their weight times an importance,
- *   which is diffusion theory's and decides the noise only. */
+ * - Paths are split, or ended at random, by their weight times what is still
+ *   due (truth_importance.h), which decides the noise only. */
 #ifndef TESTS_UNIT_TRUTH_WALK_H
 #define TESTS_UNIT_TRUTH_WALK_H
 #include <stdlib.h>
 #include "tests/unit/truth.h"
+#include "tests/unit/truth_importance.h"
 #include "core/physics/inside.h"
 #include "core/physics/march.h"
 #include "core/physics/path.h"
 #include "core/prepare.h"
-
-/* A slab from z = 0; or space around the origin. Attenuation is 1, a walker's
- * place its depth or distance, its cosine that to +z or to outward. */
-enum walk_space { WALK_NOWHERE, WALK_SLAB, WALK_SPACE };
-
-struct walk_plan {
-    enum walk_space space;
-    double start, cosine; /* of all walkers                               */
-    double depth;         /* SLAB                                         */
-    double target;        /* SLAB: 0 or the depth; SPACE: a distance      */
-    double decay;         /* of importance, per length                    */
-    double edge;          /* SLAB: where diffusion ends, beyond the faces */
-    double g, loss;       /* of the phase function; 1 - albedo            */
-    double wide;          /* share of directions that are drawn evenly    */
-};
 
 struct walker {
     double weight;
@@ -50,19 +36,17 @@ struct walk_list {
     size_t count, room;
 };
 
-enum { WALK_TABLE = 4096, WALK_NUMBERS = 5 };
+enum { WALK_NUMBERS = 5 };
 
 struct walk {
     const struct walk_plan *plan;
+    const struct walk_map *map;
     const flat_scene *scene;
     struct walk_list now, next;
     double unit;  /* unit-space lengths per length                */
     double share; /* weight times importance of a usual walker    */
     uint32_t frame, generation;
     double step[WALK_NUMBERS], shift[WALK_NUMBERS]; /* of the lattice   */
-    double reach, seen; /* the table's end, and importance beyond a slab
-                               on the side of the target                    */
-    double table[WALK_TABLE + 1];
     double sum;
     track_counters counters;
 };
@@ -124,91 +108,6 @@ static inline void walk_words(rng *r, double tau, double choice)
     r->used = rng_depth_is_end(high) ? 0 : 1;
 }
 
-/* ---- importance --------------------------------------------------------- */
-
-/* Of a path at depth or distance x, up to a factor. */
-static inline double walk_diffused(const struct walk_plan *p, double x)
-{
-    double k = p->decay;
-    if (p->space == WALK_SLAB) {
-        double from = p->edge + (p->target > 0.0 ? x : p->depth - x);
-        return k * from < 1e-3 ? from : sinh(k * from) / k;
-    }
-    double r = p->target, a = fmin(x, r), b = fmax(fmax(x, r), 0.2);
-    return (k * a < 1e-3 ? 1.0 : sinh(k * a) / (k * a)) * exp(-k * b) / b;
-}
-
-static inline void walk_tabulate(struct walk *w)
-{
-    const struct walk_plan *p = w->plan;
-    bool slab = p->space == WALK_SLAB;
-    w->reach = slab ? p->depth : fmin(60.0, p->target + 30.0);
-    for (int i = 0; i <= WALK_TABLE; i++)
-        w->table[i] = walk_diffused(p, w->reach * i / WALK_TABLE);
-    if (slab)
-        w->seen = walk_diffused(p, p->target > 0.0 ? p->depth + p->edge
-                                                   : -p->edge);
-}
-
-static inline double walk_looked_up(const struct walk *w, double x)
-{
-    double y = fmin(fmax(x / w->reach, 0.0), 1.0) * WALK_TABLE;
-    int i = y < WALK_TABLE ? (int)y : WALK_TABLE - 1;
-    return w->table[i] + (y - i) * (w->table[i + 1] - w->table[i]);
-}
-
-/* Where directions are kept, that before a scattering counts too. */
-static inline double walk_importance(const struct walk *w, double x,
-                                     double cosine)
-{
-    double here = walk_looked_up(w, x), g = w->plan->g;
-    if (g == 0.0)
-        return here;
-    double lo = fmax(x - 0.5, 0.0), hi = fmin(x + 0.5, w->reach);
-    double slope = (walk_looked_up(w, hi) - walk_looked_up(w, lo)) / (hi - lo);
-    double turned = g / (1.0 - (1.0 - w->plan->loss) * g);
-    return fmax(here + slope * turned * cosine, 0.1 * here);
-}
-
-/* Place after a flight; false beyond a slab, with what is seen from there. */
-static inline bool walk_reaches(const struct walk *w, double x, double cosine,
-                                double t, double *place, double *seen)
-{
-    if (w->plan->space == WALK_SPACE) {
-        *place = sqrt(x * x + 2.0 * x * cosine * t + t * t);
-        return true;
-    }
-    *place = x + t * cosine;
-    bool front = *place < 0.0;
-    *seen = front == (w->plan->target == 0.0) ? w->seen : 0.0;
-    return !front && *place <= w->reach;
-}
-
-/* What a flight from x will meet, by Laguerre's rule; in *length its mean
- * length, weighted by that. */
-static inline double walk_ahead(const struct walk *w, double x, double cosine,
-                                double *length)
-{
-    static const double node[5] = {0.263560319718, 1.413403059107,
-                                   3.596425771041, 7.085810005859,
-                                   12.640800844276};
-    static const double weight[5] = {0.521755610583, 0.398666811083,
-                                     0.0759424496817, 0.00361175867992,
-                                     2.33699723858e-05};
-    double sum = 0.0, first = 0.0, beyond = 0.0, place, seen = 0.0;
-    for (int i = 0; i < 5; i++) {
-        if (!walk_reaches(w, x, cosine, node[i], &place, &seen)) {
-            beyond += weight[i] * seen;
-            continue;
-        }
-        double value = weight[i] * walk_importance(w, place, cosine);
-        sum += value;
-        first += value * node[i];
-    }
-    *length = sum > 0.0 ? first / sum : 1.0;
-    return sum + beyond;
-}
-
 /* ---- flights ------------------------------------------------------------ */
 
 static inline void walk_ray(const struct walk *w, const struct walker *a,
@@ -232,27 +131,16 @@ static inline void walk_score(struct walk *w, const struct walker *a,
     w->sum += (far ? 8.0 : 1.0) * a->weight * (double)m.radiance.r;
 }
 
-/* Optical depth of the flight: an exponential law that leads to where it
- * matters, cut where it leaves a slab, but for one in twenty. */
+/* Optical depth of the flight: by what is due where it ends, but for one in
+ * twenty. */
 static inline double walk_depth(struct walk *w, struct walker *a, size_t i)
 {
+    const double plain = 0.05;
     double u = walk_number(w, WALK_FLY, i), at = fmax((double)a->at, 0.0);
-    double mu = (double)a->cosine, all = 1.0, end = INFINITY, plain = 0.0;
-    double length, tau;
-    walk_ahead(w, at, mu, &length);
-    double rate = fmax(fmin(1.0 / length, 3.0), 0.1);
-    if (w->plan->space == WALK_SLAB) {
-        end = fmax(mu > 0.0 ? w->plan->depth - at : at, 1e-6) /
-              fmax(fabs(mu), 1e-6);
-        all = -expm1(-rate * end);
-        plain = 0.05;
-    }
-    if (u < plain)
-        tau = -log1p(-u / plain);
-    else
-        tau = -log1p(-(u - plain) / (1.0 - plain) * all) / rate;
-    double density = tau <= end ? rate * exp(-rate * tau) / all : 0.0;
-    a->weight *= exp(-tau) / (plain * exp(-tau) + (1.0 - plain) * density);
+    struct walk_law law = walk_law_of(w->map, at, (double)a->cosine);
+    double tau = u < plain ? -log1p(-u / plain)
+                           : walk_law_depth(&law, (u - plain) / (1.0 - plain));
+    a->weight /= plain + (1.0 - plain) * walk_law_ratio(&law, tau);
     return tau;
 }
 
@@ -330,20 +218,21 @@ static inline bool walk_fly(struct walk *w, struct walker *a, size_t i)
 /* ---- directions --------------------------------------------------------- */
 
 /* An even phase function forgets the old direction: the axis stands for it,
- * and those that lead on are drawn more often. */
+ * and parts of the cosine are drawn by what lies ahead in their middle. */
 static inline vec3 walk_turn_even(struct walk *w, struct walker *a, size_t i)
 {
     const flat_medium *m = &w->scene->media[a->medium];
-    double u = walk_number(w, WALK_TURN, i), at = (double)a->at, length;
-    double on = walk_ahead(w, at, 1.0, &length);
-    double back = walk_ahead(w, at, -1.0, &length);
-    double k = fmax(fmin((on - back) / (on + back), 0.8), -0.8);
-    if (fabs(k) > 1e-3) {
-        double all = log1p(k) - log1p(-k);
-        double mu = (1.0 - (1.0 + k) * exp(-all * u)) / k;
-        a->weight *= 0.5 * (1.0 - k * mu) * all / k;
-        u = 0.5 * (1.0 + mu);
+    double u = walk_number(w, WALK_TURN, i), part[WALK_ANGLES], all = 0.0;
+    for (int k = 0; k < WALK_ANGLES; k++) {
+        part[k] = walk_ahead(w->map, (double)a->at, walk_cosine(k));
+        all += part[k];
     }
+    double left = u * all;
+    int k = 0;
+    while (k < WALK_ANGLES - 1 && left >= part[k])
+        left -= part[k++];
+    a->weight *= all / (WALK_ANGLES * part[k]);
+    u = (k + fmin(left / part[k], 1.0)) / WALK_ANGLES;
     float pdf;
     return phase_sample(m->phase, m->g, vec3_make(0, 0, 1), (float)u,
                         (float)walk_number(w, WALK_AROUND, i), &pdf);
@@ -374,7 +263,7 @@ static inline double walk_turn_wide(const struct walk_plan *p, double u,
 static inline vec3 walk_turn_peaked(struct walk *w, struct walker *a, size_t i)
 {
     const flat_medium *m = &w->scene->media[a->medium];
-    double u = 0.5 * walk_number(w, WALK_TURN, i), all = 0.0, length;
+    double u = 0.5 * walk_number(w, WALK_TURN, i), all = 0.0;
     double v = 0.5 * walk_number(w, WALK_AROUND, i), value[4], weight[4];
     vec3 o, old, d[4];
     float pdf;
@@ -385,7 +274,7 @@ static inline vec3 walk_turn_peaked(struct walk *w, struct walker *a, size_t i)
         d[k] = phase_sample(m->phase, m->g, old, (float)x,
                             (float)(v + 0.5 * (k % 2)), &pdf);
         value[k] = weight[k] *
-                       walk_ahead(w, (double)a->at, (double)d[k].z, &length) +
+                       walk_ahead(w->map, (double)a->at, (double)d[k].z) +
                    1e-300;
         all += value[k];
     }
@@ -474,7 +363,7 @@ static inline void walk_sort(struct walk *w)
 
 static inline double walk_worth(const struct walk *w, const struct walker *a)
 {
-    return a->weight * walk_importance(w, (double)a->at, (double)a->cosine);
+    return a->weight * walk_due(w->map, (double)a->at, (double)a->cosine);
 }
 
 /* Splits and ends: in order, so that neighbours stand in for each other. */
@@ -482,10 +371,13 @@ static inline void walk_populate(struct walk *w)
 {
     rng r = rng_make(13, w->frame, w->generation, 0);
     double due = (double)rng_float(&r);
+    double least = w->plan->space == WALK_SLAB ? 0.1 : 0.5;
     for (size_t i = 0; i < w->now.count; i++) {
         struct walker a = w->now.item[i];
         double share = walk_worth(w, &a) / w->share, copies = 1.0;
-        if (share < 0.5 || share > 3.0) {
+        bool light = share < least;
+        if (light || share > 3.0) {
+            share /= light ? 2.0 * least : 1.0;
             due += share;
             copies = floor(due);
             due -= copies;
@@ -536,7 +428,7 @@ static inline void walk_start(struct walk *w, size_t n)
     for (size_t i = 0; i < n; i++)
         w->now.item[i] = first;
     w->now.count = n;
-    walk_tabulate(w);
+    w->map = walk_map_of(w->plan);
     walk_lattice(w);
 }
 
