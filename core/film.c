@@ -70,6 +70,26 @@ static double mean(const struct film *f, const film_pixel *p, int channel)
            (p->line[0][channel] + p->line[1][channel]) / lines;
 }
 
+/* Mean over the pixels beside one, which know nothing of its noise. */
+static double mean_around(const struct film *f, size_t at, int channel)
+{
+    int width = f->x1 - f->x0, height = f->y1 - f->y0, count = 0;
+    int x = (int)(at % (size_t)width), y = (int)(at / (size_t)width);
+    double sum = 0.0;
+    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
+        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++) {
+            if (i == x && j == y)
+                continue;
+            sum += mean(f, &f->pixel[(size_t)j * (size_t)width + (size_t)i],
+                        channel);
+            count++;
+        }
+    return count ? sum / count : mean(f, &f->pixel[at], channel);
+}
+
+/* Over its own mean a pixel in which few samples found much light would be off
+ * by little; so would one beside a bright edge, over its neighbours'. The less
+ * of the two counts. */
 double film_error(const struct film *film)
 {
     size_t pixels = film_pixels(film);
@@ -84,10 +104,12 @@ double film_error(const struct film *film)
     for (size_t i = 0; i < pixels; i++)
         for (int c = 0; c < 3; c++) {
             const film_pixel *p = &film->pixel[i];
-            double m = mean(film, p, c);
             double d = half_mean(film, p, 0, c) - half_mean(film, p, 1, c);
-            if (d != 0.0)
-                sum += 0.25 * d * d / (m * m + floor);
+            if (d == 0.0)
+                continue;
+            double m = fmin(fabs(mean(film, p, c)),
+                            fabs(mean_around(film, i, c)));
+            sum += 0.25 * d * d / (m * m + floor);
         }
     return pixels ? sqrt(sum / (3.0 * (double)pixels)) : 0.0;
 }

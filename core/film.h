@@ -18,8 +18,8 @@ void film_release(struct film *film);
 size_t film_pixels(const struct film *film);
 
 /* Estimated relRMSE (DESIGN.md) of the mean so far: the halves' difference
- * stands for the noise, the mean for the reference. Infinite below 4
- * samples. */
+ * stands for the noise, the mean there or around for the reference. Infinite
+ * below 4 samples. */
 double film_error(const struct film *film);
 
 /* Allocates the frame's planes and fills them with the means. */
