@@ -250,18 +250,20 @@ __device__ __forceinline__ void get_stretches(const flat_scene *s,
     __syncwarp();
 }
 
-/* Lays cells while that many threads have one. */
+/* Lays cells while there is work for that many threads. What is left waits, so
+ * that stretches are begun by many threads together, too; there is room for
+ * one of each thread then. */
 __device__ __forceinline__ void lay(const flat_scene *s, warp_memory *m,
                                     layer *l, photon_counters *count,
                                     int threads)
 {
     const stretch *x = &m->laid[threadIdx.x % warp_size];
     for (;;) {
-        if (l->count > 0)
-            get_stretches(s, m, l);
         int busy = __popc(__ballot_sync(~0u, l->busy));
-        if (busy < threads && l->count == 0)
+        if (busy + l->count < threads)
             return;
+        if (busy < lay_threads && l->count > 0)
+            get_stretches(s, m, l);
         if (l->busy)
             l->busy = radiance_lay(s, &count->tally, &l->walk, x->o, x->d,
                                    x->power);
