@@ -349,6 +349,57 @@ static void photon_ball__voxels_have_their_share_of_births(void **state)
     brume_scene_free(s);
 }
 
+/* What a voxel emits: the mean luminance of its eighths. */
+static double emitted(const flat_scene *v, const flat_glow *g, int x, int y,
+                      int z)
+{
+    const flat_medium *m = &v->media[g->medium];
+    double sum = 0.0;
+    for (int i = 0; i < 8; i++) {
+        vec3 q = vec3_make((float)x + (i & 1 ? 0.75f : 0.25f),
+                           (float)y + (i & 2 ? 0.75f : 0.25f),
+                           (float)z + (i & 4 ? 0.75f : 0.25f));
+        field_point at = field_point_make(v, m->lead,
+                                          affine_point(&g->from_index, q));
+        rgb c = medium_source(v, m, &at, medium_density(v, m, &at));
+        sum += 0.2126 * fabs((double)c.r) + 0.7152 * fabs((double)c.g) +
+               0.0722 * fabs((double)c.b);
+    }
+    return sum;
+}
+
+/* The shares of all voxels against what they emit: together off by less. */
+static void photon_ball__voxels_weigh_as_they_glow(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    static double share[SIDE * SIDE * SIDE];
+    brume_scene *s = small_fire();
+    struct prepare job = {.scene = s, .threads = 1};
+    struct flat *flat = prepare_scene(&job, truth_error());
+    assert_non_null(flat);
+    const flat_scene *v = &flat->view;
+    const flat_glow *g = &v->glows[0];
+    double sum = 0.0, off = 0.0;
+    for (int n = 0; n < SIDE * SIDE * SIDE; n++) {
+        share[n] = emitted(v, g, g->origin[0] + n % SIDE,
+                           g->origin[1] + n / SIDE % SIDE,
+                           g->origin[2] + n / SIDE / SIDE);
+        sum += share[n];
+    }
+    for (int n = 0; n < SIDE * SIDE * SIDE; n++) {
+        vec3 q = vec3_make((float)(g->origin[0] + n % SIDE) + 0.5f,
+                           (float)(g->origin[1] + n / SIDE % SIDE) + 0.5f,
+                           (float)(g->origin[2] + n / SIDE / SIDE) + 0.5f);
+        float pdf = glow_pdf(v, g, affine_point(&g->from_index, q));
+        off += fabs((double)(pdf * g->voxel_volume) - share[n] / sum);
+    }
+    if (!(sum > 0.0) || !(off < 2e-4))
+        fail_msg("voxels are off by %.2g together", off);
+    flat_free(flat);
+    brume_scene_free(s);
+}
+
 /* Balls around a heap as large as a voxel or two: what is in them beside the
  * mean of many places, the ball's own 2 x 16 of which mostly miss it. */
 static void photon_ball__finds_what_is_thick(void **state)
@@ -397,6 +448,7 @@ int main(void)
         cmocka_unit_test(photon_ball__surfaces_gather_cells),
         cmocka_unit_test(photon_ball__births_are_as_hot_as_the_place),
         cmocka_unit_test(photon_ball__voxels_have_their_share_of_births),
+        cmocka_unit_test(photon_ball__voxels_weigh_as_they_glow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
