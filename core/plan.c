@@ -270,16 +270,44 @@ static uint64_t grid_bytes(const struct flat *f)
            f->cells_count * sizeof *f->cells;
 }
 
-static void note_field(const struct flat *f, struct brume_plan *plan)
+/* Bricks of each level. */
+static void note_levels(const struct flat *f, struct brume_plan *plan)
+{
+    const radiance_lattice *l = &f->view.field;
+    size_t bricks[4] = {0};
+    for (size_t i = 0; i < f->radiance_slots_count; i++)
+        if (f->radiance_slots[i] >= 0)
+            bricks[f->radiance_slots[i] & 3]++;
+    add_note(plan,
+             "field of scattered light: %zu cells, %zu of %d x %d x %d bricks "
+             "with cells of %g on a side, %zu, %zu, %zu with cells 2, 4, 8 "
+             "times as large; %d numbers in each",
+             f->radiance_count / (size_t)l->numbers, bricks[0], l->bricks[0],
+             l->bricks[1], l->bricks[2], (double)l->side / f->unit, bricks[1],
+             bricks[2], bricks[3], l->numbers);
+}
+
+static void note_field(const struct flat *f,
+                       const struct brume_options *options,
+                       struct brume_plan *plan)
 {
     const radiance_lattice *l = &f->view.field;
     if (l->numbers == 0)
         return;
+    if (l->refined) {
+        note_levels(f, plan);
+        return;
+    }
     add_note(plan,
              "field of scattered light: %zu of %d x %d x %d bricks of 8^3 "
              "cells, %g on a side, %d numbers in each",
              f->radiance_count / 512 / (size_t)l->numbers, l->bricks[0],
              l->bricks[1], l->bricks[2], (double)l->side / f->unit, l->numbers);
+    if (options->photons.depth > 0.0)
+        add_note(plan, "its cells are of one size: %s",
+                 l->ball ? "balls gather it"
+                         : "a film's have to agree, and "
+                           "progressive ones shrink");
 }
 
 static void note_function(const struct flat *f, size_t field,
@@ -403,7 +431,7 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               "opacity, depth, background and emission toward the eye");
     add_stage(plan, "single", s.single, 0, single_reason(f, &s));
     add_stage(plan, "path", s.path, 0, path_reason(f, &s));
-    note_field(f, plan);
+    note_field(f, options, plan);
     note_grids(scene, f, plan);
     note_fires(scene, f, plan);
 }

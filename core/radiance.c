@@ -14,6 +14,9 @@
 /* Lights that cells hold the light of, at most. */
 #define LIT_LIGHTS 4
 
+/* Cells of a refined field, whose numbers have 29 bits of a slot. */
+#define MOST_REFINED (UINT64_C(1) << 29)
+
 /* The streams of lattices' places. */
 #define SHIFT_PASS 0xfffffffbu
 
@@ -140,16 +143,14 @@ static void choose_numbers(struct layout *l)
     }
 }
 
-/* Whether a medium may give light in a box of unit space: scatters it, or
- * where births are asked for emits it. */
-static bool medium_in_box(const struct layout *l, const flat_medium *m,
-                          const float lo[3], const float hi[3])
+/* The largest density that a medium may have in a box of unit space. */
+static float densest_in_box(const struct layout *l, const flat_medium *m,
+                            const float lo[3], const float hi[3])
 {
     const struct flat *f = l->flat;
-    if (rgb_is_black(m->sigma_s) && !(l->field.births && m->emits))
-        return false;
-    if (m->uniform || m->outside.density > 0.0f)
-        return true;
+    float most = m->outside.density;
+    if (m->uniform)
+        return most;
     vec3 a = vec3_make(INFINITY, INFINITY, INFINITY), b = vec3_scale(a, -1.0f);
     for (int i = 0; i < 8; i++) {
         vec3 p = affine_point(&m->to_cell, vec3_make(i & 1 ? lo[0] : hi[0],
@@ -166,13 +167,13 @@ static bool medium_in_box(const struct layout *l, const flat_medium *m,
     for (int z = first[2]; z <= last[2]; z++)
         for (int y = first[1]; y <= last[1]; y++)
             for (int x = first[0]; x <= last[0]; x++)
-                if (f->cells[m->cell + (uint64_t)x +
-                             (uint64_t)m->cells[0] *
-                                 ((uint64_t)y +
-                                  (uint64_t)m->cells[1] * (uint64_t)z)]
-                        .density > 0.0f)
-                    return true;
-    return false;
+                most = fmaxf(most,
+                             f->cells[m->cell + (uint64_t)x +
+                                      (uint64_t)m->cells[0] *
+                                          ((uint64_t)y +
+                                           (uint64_t)m->cells[1] * (uint64_t)z)]
+                                 .density);
+    return most;
 }
 
 /* Whether a plane through the eye with that normal, which the picture lies
@@ -216,8 +217,24 @@ static bool box_nearer(const camera *c, const float lo[3], const float hi[3],
     return vec3_dot(axis, vec3_sub(near, c->location)) <= depth;
 }
 
-/* With a margin of a cell, for what is interpolated. */
-static bool brick_scatters(const struct layout *l, const int32_t at[3])
+/* The largest level, up to 3, whose cells are no thicker than is asked for,
+ * where the media's extinction is `sigma` at most. */
+static int level_for(const struct layout *l, float sigma)
+{
+    int level = 0;
+    if (!l->field.refined)
+        return 0;
+    while (level < 3 &&
+           (double)(sigma * l->field.side) * (2 << level) <= l->options->depth)
+        level++;
+    return level;
+}
+
+/* The level of a brick's cells, or -1 where nothing gives light: scatters it,
+ * or where births are asked for emits it. What emits shines on what is beside
+ * it: its cells are the smallest. With a margin of a cell, for what is
+ * interpolated. */
+static int brick_level(const struct layout *l, const int32_t at[3])
 {
     const radiance_lattice *f = &l->field;
     float lo[3], hi[3];
@@ -229,15 +246,24 @@ static bool brick_scatters(const struct layout *l, const int32_t at[3])
     float margin = 1.8f * f->side;
     if (l->seen && !(box_seen(view, lo, hi, margin) &&
                      box_nearer(view, lo, hi, f->far + margin)))
-        return false;
-    for (size_t i = 0; i < l->flat->media_count; i++)
-        if (medium_in_box(l, &l->flat->media[i], lo, hi))
-            return true;
-    return false;
+        return -1;
+    bool gives = false, emits = false;
+    float sigma = 0.0f;
+    for (size_t i = 0; i < l->flat->media_count; i++) {
+        const flat_medium *m = &l->flat->media[i];
+        float most = densest_in_box(l, m, lo, hi);
+        if (!(m->uniform || most > 0.0f))
+            continue;
+        gives |= !rgb_is_black(m->sigma_s) || (f->births && m->emits);
+        emits |= m->emits && !m->uniform;
+        sigma += most * rgb_max(m->sigma_t);
+    }
+    return !gives ? -1 : emits ? 0 : level_for(l, sigma);
 }
 
-/* Bricks that scatter; their numbers go to `slots` if it is not NULL. */
-static uint64_t number_bricks(const struct layout *l, int32_t *slots)
+/* Cells of the bricks that have some; their slots go to `slots` if it is not
+ * NULL. */
+static uint64_t number_cells(const struct layout *l, int32_t *slots)
 {
     const int32_t *n = l->field.bricks;
     uint64_t count = 0;
@@ -245,10 +271,12 @@ static uint64_t number_bricks(const struct layout *l, int32_t *slots)
     for (at[2] = 0; at[2] < n[2]; at[2]++)
         for (at[1] = 0; at[1] < n[1]; at[1]++)
             for (at[0] = 0; at[0] < n[0]; at[0]++) {
-                bool scatters = brick_scatters(l, at);
+                int level = brick_level(l, at);
+                int32_t slot = l->field.refined ? (int32_t)(4 * count) + level
+                                                : (int32_t)(count / 512);
                 if (slots)
-                    *slots++ = scatters ? (int32_t)count : -1;
-                count += scatters;
+                    *slots++ = level < 0 ? -1 : slot;
+                count += level < 0 ? 0u : 512u >> 3 * level;
             }
     return count;
 }
@@ -304,9 +332,9 @@ static double first_side(const struct flat *f)
     return fmax(cbrt(volume) / FIELD_CELLS, voxel_side(f));
 }
 
-static uint64_t field_bytes(const struct layout *l, uint64_t bricks)
+static uint64_t field_bytes(const struct layout *l, uint64_t cells)
 {
-    return bricks * 512 * (uint64_t)l->field.numbers * NUMBER_BYTES;
+    return cells * (uint64_t)l->field.numbers * NUMBER_BYTES;
 }
 
 static bool check_options(const struct layout *l, struct brume_error *err)
@@ -346,20 +374,21 @@ static bool lay_out(struct layout *l, double side, uint64_t room,
     double ball = l->options->radius > 0.0
                       ? l->options->radius * flat->unit / side
                       : 2.0;
-    uint64_t bricks;
+    uint64_t cells;
     for (;; side *= 1.1) {
         set_cells(l, side);
-        bricks = number_bricks(l, NULL);
-        if (field_bytes(l, bricks) <= room || bricks <= 8)
+        cells = number_cells(l, NULL);
+        bool fits = !l->field.refined || cells < MOST_REFINED;
+        if (fits && (field_bytes(l, cells) <= room || cells <= 8 * 512))
             break;
     }
     size_t all = (size_t)l->field.bricks[0] * (size_t)l->field.bricks[1] *
                  (size_t)l->field.bricks[2];
     int32_t *slots = FLAT_EXTEND(flat, radiance_slots, all, err);
-    if (!slots || !FLAT_EXTEND(flat, radiance,
-                               bricks * 512 * (size_t)l->field.numbers, err))
+    if (!slots ||
+        !FLAT_EXTEND(flat, radiance, cells * (size_t)l->field.numbers, err))
         return false;
-    number_bricks(l, slots);
+    number_cells(l, slots);
     l->field.radius = (float)(l->options->radius > 0.0 && !l->passes
                                   ? l->options->radius * flat->unit
                                   : ball * (double)l->field.side);
@@ -416,6 +445,8 @@ static struct layout begin(struct flat *flat,
     l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
     l.snap = !l.passes &&
              (brume_film_reach(options) > 0 || l.options->film_cells);
+    l.field.refined = l.options->depth > 0.0 && !l.passes && !l.snap &&
+                      !l.field.ball;
     l.lit = radiance_keeps_lit(flat, options);
     choose_numbers(&l);
     return l;
@@ -424,7 +455,10 @@ static struct layout begin(struct flat *flat,
 static double side_of(const struct layout *l)
 {
     double spacing = l->options->spacing;
-    return spacing > 0.0 ? spacing * l->flat->unit : first_side(l->flat);
+    if (spacing > 0.0)
+        return spacing * l->flat->unit;
+    double side = first_side(l->flat);
+    return l->field.refined ? fmax(0.5 * side, voxel_side(l->flat)) : side;
 }
 
 bool radiance_layout(struct flat *flat, const struct brume_options *options,

@@ -41,6 +41,8 @@ struct brume_photon_options {
     enum brume_emission emission;
     double radius;              /* of the ball, scene units; 0: two cells   */
     double spacing;             /* of cells, scene units; 0: chosen         */
+    double depth;               /* of cells that differ in size: their optical
+                                   thickness, at most; 0: all of one size  */
     bool everywhere;            /* also cells that the eye cannot see       */
     bool far_plane;             /* not those behind all that it can see     */
     /* Of films (brume_film.h): the field is a mean over so many frames, an odd
@@ -54,7 +56,7 @@ struct brume_photon_options {
     bool film_cells;            /* as with a filter, without one too        */
 };
 #define BRUME_PHOTONS_INIT                                                    \
-    {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0,       \
+    {0, BRUME_GATHER_TALLY, BRUME_SINGLE_RAY, BRUME_EMISSION_LINE, 0, 0, 0,    \
      false, false, 0, false, {0}, false, false}
 
 /* `preset paper`: the published choices of each stage (Cha, Yi and Ihm 2010);

@@ -22,6 +22,7 @@ static const struct param photons_params[] = {
     PARAM_WORDS("emission", emission_words, 0, struct volume_photons, emission),
     NUMBER(radius, PARAM_FLOAT, 0, INFINITY, PARAM_ABOVE),
     NUMBER(field_spacing, PARAM_FLOAT, 0, INFINITY, PARAM_ABOVE),
+    NUMBER(field_depth, PARAM_FLOAT, 0, INFINITY, 0),
     PARAM_ROW("temporal", PARAM_INTEGER, 0, 1, BRUME_MAX_TAPS, 0,
               PHOTONS_TEMPORAL, struct volume_photons, temporal),
     PARAM_ANY("frustum", PARAM_SWITCH, 1, 0, struct volume_photons, frustum),
@@ -171,6 +172,7 @@ void build_photons_finish(struct parser *parser)
     to->emission = (enum brume_emission)said->emission;
     to->radius = said->radius;
     to->spacing = said->field_spacing;
+    to->depth = said->field_depth;
     to->everywhere = !said->frustum;
     to->far_plane = said->far_plane;
     set_taps(said, to);

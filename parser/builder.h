@@ -213,7 +213,7 @@ struct subsurface {
 };
 
 struct volume_photons {
-    double count, radius, field_spacing;
+    double count, radius, field_spacing, field_depth;
     int preset, gather, single, emission;
     bool frustum, far_plane;
     int temporal;               /* frames, 0: not said                     */

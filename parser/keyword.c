@@ -161,6 +161,7 @@ const struct keyword keyword_table[] = {
     {"far_plane", TOK_WORD, KEYWORD_EXTENSION},
     {"fclose", TOK_UNSUPPORTED, KEYWORD_RESERVED},
     {"field", TOK_WORD, KEYWORD_EXTENSION},
+    {"field_depth", TOK_WORD, KEYWORD_EXTENSION},
     {"field_spacing", TOK_WORD, KEYWORD_EXTENSION},
     {"file_exists", TOK_NUMBER_FUNCTION, KEYWORD_RESERVED},
     {"filter", TOK_FILTER, KEYWORD_RESERVED},

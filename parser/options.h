@@ -97,7 +97,7 @@ struct options {
     int gpus;                   /* -1: all; 0: all, if there are any       */
     uint64_t seed, memory, photons;
     uint64_t more_photons[OPTIONS_MOST_PHOTONS - 1];    /* up to a 0       */
-    double field_spacing;
+    double field_spacing, field_depth;
     /* Of reading a scene; 0: the default of struct parse_limits. */
     int include_depth, macro_depth;
     uint64_t iterations, tokens;

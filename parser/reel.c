@@ -268,6 +268,8 @@ struct brume_options reel_options(struct reel *reel, int number,
         r.photons.count = o->photons;
     if (o->field_spacing > 0)
         r.photons.spacing = o->field_spacing;
+    if (o->field_depth > 0)
+        r.photons.depth = o->field_depth;
     if (o->preset)
         brume_photons_paper(&r.photons);
     choose_filter(reel, &r.photons);

@@ -49,7 +49,7 @@ static void put_rendering(struct settings *s, const struct options *o)
 {
     put(s, "backend %d integrator %d %d preset %d", (int)o->backend,
         o->has_integrator, (int)o->integrator, o->preset);
-    put(s, "spacing %.17g", o->field_spacing);
+    put(s, "spacing %.17g depth %.17g", o->field_spacing, o->field_depth);
     put(s, "temporal %d adaptive %d", o->taps, o->adaptive);
     for (int i = 0; !o->adaptive && i < o->taps; i++)
         put(s, "%.17g", o->weight[i]);

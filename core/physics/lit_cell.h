@@ -75,13 +75,16 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
         lit_cell_light(s, (int)i, &p, x, &ball, out);
 }
 
-/* Cell i of a brick that is there, into its numbers. */
+/* Cell i of a brick that is there, if it has so many, into its numbers. */
 HD void lit_cell_run(const flat_scene *s, uint64_t seed, uint32_t frame,
                      uint64_t brick, int i, float *cells,
                      track_counters *count)
 {
     const radiance_lattice *f = &s->field;
-    uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
+    int32_t slot = s->radiance_slots[brick];
+    if (i >= 512 >> 3 * radiance_level(s, slot))
+        return;
+    uint64_t cell = (uint64_t)radiance_first(s, slot) + (uint64_t)i;
     lit_cell(s, radiance_middle(s, brick, i),
              rng_make(seed, frame, LIT_CELL_PASS, cell),
              cells + cell * (uint64_t)f->numbers, count);

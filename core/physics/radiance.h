@@ -47,29 +47,56 @@ HD void radiance_add(int64_t *sum, double value)
 #endif
 }
 
-/* Number of the cell's first value over field.numbers, or -1. */
-HD int64_t radiance_cell(const flat_scene *s, int x, int y, int z)
+/* The slot of a brick, or -1 where it has no cells: its number. In a refined
+ * field four times the number of its first cell, and the level: its cells are
+ * 2^level times as large, 8 >> level along each axis. */
+HD int32_t radiance_slot(const flat_scene *s, int x, int y, int z)
 {
     const radiance_lattice *f = &s->field;
     int64_t brick = (x >> 3) + (int64_t)f->bricks[0] *
                     ((y >> 3) + (int64_t)f->bricks[1] * (z >> 3));
-    int32_t slot = s->radiance_slots[brick];
+    return s->radiance_slots[brick];
+}
+
+HD int radiance_level(const flat_scene *s, int32_t slot)
+{
+    return s->field.refined && slot >= 0 ? (int)(slot & 3) : 0;
+}
+
+/* The first cell of a brick that is there. */
+HD int64_t radiance_first(const flat_scene *s, int32_t slot)
+{
+    return s->field.refined ? (int64_t)(slot >> 2) : (int64_t)slot * 512;
+}
+
+/* Number of the cell's first value over field.numbers, or -1, of the smallest
+ * cell there may be at that place. */
+HD int64_t radiance_cell(const flat_scene *s, int x, int y, int z)
+{
+    int32_t slot = radiance_slot(s, x, y, z);
     if (slot < 0)
         return -1;
-    return (int64_t)slot * 512 + ((z & 7) * 8 + (y & 7)) * 8 + (x & 7);
+    int level = radiance_level(s, slot), n = 8 >> level;
+    return radiance_first(s, slot) +
+           (((z & 7) >> level) * n + ((y & 7) >> level)) * n +
+           ((x & 7) >> level);
 }
 
 /* The middle of cell i of a brick. */
 HD vec3 radiance_middle(const flat_scene *s, uint64_t brick, int i)
 {
     const radiance_lattice *f = &s->field;
+    int level = radiance_level(s, s->radiance_slots[brick]);
+    int bits = 3 - level, mask = 7 >> level;
+    float half = 0.5f * (float)(1 << level);
     uint64_t row = brick / (uint64_t)f->bricks[0];
-    int x = 8 * (int)(brick % (uint64_t)f->bricks[0]) + (i & 7);
-    int y = 8 * (int)(row % (uint64_t)f->bricks[1]) + (i >> 3 & 7);
-    int z = 8 * (int)(row / (uint64_t)f->bricks[1]) + (i >> 6);
-    return vec3_make(f->origin[0] + ((float)x + 0.5f) * f->side,
-                     f->origin[1] + ((float)y + 0.5f) * f->side,
-                     f->origin[2] + ((float)z + 0.5f) * f->side);
+    int x = 8 * (int)(brick % (uint64_t)f->bricks[0]) + ((i & mask) << level);
+    int y = 8 * (int)(row % (uint64_t)f->bricks[1]) +
+            ((i >> bits & mask) << level);
+    int z = 8 * (int)(row / (uint64_t)f->bricks[1]) + (i >> 2 * bits << level);
+    return vec3_make(f->origin[0] + ((float)x + half) * f->side,
+                     f->origin[1] + ((float)y + half) * f->side,
+                     f->origin[2] + ((float)z + half) * f->side);
 }
 
 /* By what a field of balls is spread over a medium. */
@@ -252,14 +279,24 @@ HD bool radiance_step(const flat_scene *s, radiance_walk *w)
 HD bool radiance_lay(const flat_scene *s, radiance_tally *t, radiance_walk *w,
                      vec3 o, vec3 d, rgb power)
 {
-    float next = hd_min(w->next[0], hd_min(w->next[1], w->next[2]));
-    float stop = hd_min(next, w->end), length = stop - w->t;
-    int64_t cell = radiance_cell(s, w->cell[0], w->cell[1], w->cell[2]);
+    float from = w->t;
+    const int32_t *at = w->cell;
+    int level = radiance_level(s, radiance_slot(s, at[0], at[1], at[2]));
+    int64_t cell = radiance_cell(s, at[0], at[1], at[2]);
+    bool more;
+    do {
+        float next = hd_min(w->next[0], hd_min(w->next[1], w->next[2]));
+        w->t = hd_max(w->t, hd_min(next, w->end));
+        more = w->t < w->end && radiance_step(s, w);
+    } while (more && level > 0 &&
+             radiance_cell(s, at[0], at[1], at[2]) == cell);
+    float length = w->t - from;
+    /* Over the volume of the smallest cells, as all sums are. */
+    float side = s->field.side * (float)(1 << 3 * level);
     if (cell >= 0 && length > 0.0f)
-        radiance_deposit(s, t, cell, vec3_mad(o, w->t + 0.5f * length, d), d,
-                         rgb_scale(power, length / s->field.side));
-    w->t = hd_max(w->t, stop);
-    return w->t < w->end && radiance_step(s, w);
+        radiance_deposit(s, t, cell, vec3_mad(o, from + 0.5f * length, d), d,
+                         rgb_scale(power, length / side));
+    return more;
 }
 
 /* ---- reading ----------------------------------------------------------- */
@@ -308,16 +345,85 @@ HD radiance_point radiance_nothing(void)
     return out;
 }
 
-/* Place of p between the centres of cells of one axis, within the lattice. */
-HD int radiance_place(const radiance_lattice *f, float p, int axis,
+/* Place of p between the centres of cells of 2^level sides along one axis,
+ * within the lattice. */
+HD int radiance_place(const radiance_lattice *f, float p, int axis, int level,
                       float *fraction)
 {
-    float last = (float)(8 * f->bricks[axis] - 1);
-    float x = (p - f->origin[axis]) / f->side - 0.5f;
+    float last = (float)((8 * f->bricks[axis] >> level) - 1);
+    float x = (p - f->origin[axis]) / (f->side * (float)(1 << level)) - 0.5f;
     x = hd_min(hd_max(x, 0.0f), last);
-    int i = (int)hd_min(x, last - 1.0f);
+    int i = (int)hd_max(hd_min(x, last - 1.0f), 0.0f);
     *fraction = x - (float)i;
     return i;
+}
+
+/* Adds what cells of 2^level sides tell of p to *out, `share` times, and the
+ * weight of those that are there to *sum: interpolated between their centres,
+ * at each of which stands the cell that is there, whatever its level. */
+HD void radiance_gather(const flat_scene *s, vec3 p, bool eye, int level,
+                        float share, radiance_point *out, float *sum)
+{
+    float fraction[3];
+    int at[3], half = (1 << level) >> 1;
+    for (int i = 0; i < 3; i++)
+        at[i] = radiance_place(&s->field, vec3_get(p, i), i, level,
+                               &fraction[i]);
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        float weight = share * (x ? fraction[0] : 1.0f - fraction[0]) *
+                       (y ? fraction[1] : 1.0f - fraction[1]) *
+                       (z ? fraction[2] : 1.0f - fraction[2]);
+        if (level > 0 && weight == 0.0f)
+            continue;
+        int64_t cell = radiance_cell(s, ((at[0] + x) << level) + half,
+                                     ((at[1] + y) << level) + half,
+                                     ((at[2] + z) << level) + half);
+        if (cell < 0)
+            continue;
+        radiance_blend(&s->field, s->radiance + cell * s->field.numbers, eye,
+                       weight, out);
+        *sum += weight;
+    }
+}
+
+/* The same from levels that change: within a cell of a brick's face the next
+ * one's level has its part, half of it at the face, so that nothing jumps. */
+HD_APART radiance_point radiance_mixed(const flat_scene *s, vec3 p, bool eye,
+                                       float *sum)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_point out = radiance_nothing();
+    float part[4] = {0.0f, 0.0f, 0.0f, 0.0f}, near[3];
+    int at[3], step[3];
+    for (int i = 0; i < 3; i++) {
+        float last = (float)(8 * f->bricks[i]) - 0.5f;
+        float x = (vec3_get(p, i) - f->origin[i]) / f->side;
+        x = hd_min(hd_max(x, 0.0f), last);
+        at[i] = (int)x;
+        float in = x - (float)(at[i] & ~7);
+        step[i] = in < 4.0f ? -8 : 8;
+        near[i] = 0.5f - 0.5f * (in < 4.0f ? in : 8.0f - in);
+        int beside = at[i] + step[i];
+        if (!(near[i] > 0.0f) || beside < 0 || beside >= 8 * f->bricks[i])
+            near[i] = 0.0f;
+    }
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        float weight = (x ? near[0] : 1.0f - near[0]) *
+                       (y ? near[1] : 1.0f - near[1]) *
+                       (z ? near[2] : 1.0f - near[2]);
+        if (!(weight > 0.0f))
+            continue;
+        int32_t slot = radiance_slot(s, at[0] + (x ? step[0] : 0),
+                                     at[1] + (y ? step[1] : 0),
+                                     at[2] + (z ? step[2] : 0));
+        part[radiance_level(s, slot)] += weight;
+    }
+    for (int level = 0; level < 4; level++)
+        if (part[level] > 0.0f)
+            radiance_gather(s, p, eye, level, part[level], &out, sum);
+    return out;
 }
 
 /* Interpolated between the centres of those cells that are there. `eye`: for
@@ -325,22 +431,15 @@ HD int radiance_place(const radiance_lattice *f, float p, int axis,
  * nothing tells against as many births as should be. */
 HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
 {
-    radiance_point out = radiance_nothing();
-    float fraction[3], sum = 0.0f;
-    int at[3];
-    for (int i = 0; i < 3; i++)
-        at[i] = radiance_place(&s->field, vec3_get(p, i), i, &fraction[i]);
-    for (int k = 0; k < 8; k++) {
-        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
-        int64_t cell = radiance_cell(s, at[0] + x, at[1] + y, at[2] + z);
-        if (cell < 0)
-            continue;
-        float weight = (x ? fraction[0] : 1.0f - fraction[0]) *
-                       (y ? fraction[1] : 1.0f - fraction[1]) *
-                       (z ? fraction[2] : 1.0f - fraction[2]);
-        radiance_blend(&s->field, s->radiance + cell * s->field.numbers, eye,
-                       weight, &out);
-        sum += weight;
+    radiance_point out;
+    float sum = 0.0f;
+    if (s->field.refined) {
+        float weight = 0.0f;
+        out = radiance_mixed(s, p, eye, &weight);
+        sum = weight;
+    } else {
+        out = radiance_nothing();
+        radiance_gather(s, p, eye, 0, 1.0f, &out, &sum);
     }
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     out.births = sum > 0.0f ? out.births * scale : 1.0f;

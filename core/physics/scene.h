@@ -244,6 +244,8 @@ typedef struct {
     int32_t eye, fluence, flux;     /* place of the first, or -1           */
     int32_t phase;          /* p                                           */
     float g;
+    int32_t refined;        /* 1: a brick's cells are the larger the thinner its
+                               media are, see radiance_slot                */
     int32_t ball;           /* 1: instead, what all media scatter toward the
                                eye, by events within `radius`, and per
                                thickness, see ball_cell.h                  */
@@ -324,7 +326,7 @@ typedef struct {
     X(uint32_t, kd_items)       /* as bvh_items */                            \
     X(blackbody_table, blackbody)                                             \
     X(int32_t, camera_containers)   /* the shapes that hold the eye */        \
-    X(int32_t, radiance_slots)      /* per brick: its number, or -1 */        \
+    X(int32_t, radiance_slots)      /* per brick, see radiance_slot */        \
     X(float, radiance)
 
 /* Passed by value to every stage. */
