@@ -59,6 +59,9 @@ job=$(sbatch --parsable --array=1-1 -o d.out "$ROOT/scenes/slurm/array.sh" \
     s.pov +W80 +H60 --spp 64 +KFF48 +Oagain)
 wait_for '"frame":5' again.frames.jsonl
 scancel --signal=TERM "${job}_1"
+# A job's leave to run that is given again in the second in which it was taken
+# back is void, and the job with it.
+sleep 5
 for _ in $(seq 300); do
     # Slurm lets a requeued job wait for two minutes.
     scontrol update jobid="${job}_1" StartTime=now 2>/dev/null
