@@ -8,7 +8,7 @@
 Makes the grids in DIR ($B/bench) where they are not there, and for each scene
 at its published size
 
-    two references by `path`, NAME-1.exr and NAME-2.exr in DIR/reference, if
+    two references by `path`, NAME-SIZE-1.exr and -2.exr in DIR/reference, if
     they are not there: by PROGRAM, a brume with CUDA, up to S seconds each, or
     on the processor for half of the budget each;
     pictures by `photon` with a million photons, 4 samples a pixel and --samples
@@ -123,7 +123,9 @@ def references(scene, options):
     """Two pictures, and by what they were made."""
     folder = os.path.join(options.data, "reference")
     os.makedirs(folder, exist_ok=True)
-    paths = [os.path.join(folder, f"{scene.name}-{i}.exr") for i in (1, 2)]
+    width, height = size_of(scene, options)
+    paths = [os.path.join(folder, f"{scene.name}-{width}x{height}-{i}.exr")
+             for i in (1, 2)]
     for i, path in enumerate(paths):
         if os.path.exists(path):
             continue

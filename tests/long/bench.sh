@@ -8,7 +8,7 @@ json=$ROOT/${B:-build}/tests/tools/json
 new_case 'two scenes are measured'
 out=$PWD/results
 (cd "$ROOT" && BRUME=$BRUME tests/bench/bench.py --budget 4 --scale 0.05 \
-    --samples 8 --data "$out/data" --out "$out" t1-fog t4-smoke) >printed 2>said
+    --samples 8 --out "$out" t1-fog t4-smoke) >printed 2>said
 took $?
 exits 0
 has results/bench.json results/README.md
