@@ -88,7 +88,7 @@ endif
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all unit tools fuzzers setup demo film test test-all fuzz bench \
+.PHONY: all unit tools fuzzers setup demo film test test-all fuzz mutants bench \
         do-demo do-film do-test do-test-all \
         lint format install bundle clean
 all: $(B)/brume
@@ -189,6 +189,10 @@ FUZZ_RUNS ?= 200000
 fuzz:
 	@+$(MAKE) --no-print-directory FUZZ=1 CUDA=0 WERROR=0 fuzzers
 	@B=build/fuzz tests/fuzz/run $(FUZZ_RUNS)
+
+# What is there for extremes, taken out: each must be missed by its test.
+mutants:
+	@B=$(B) tests/mutations/run
 
 # The published scenes, so many seconds each: tests/bench/results/.
 BENCH_SECONDS ?= 60

@@ -332,7 +332,7 @@ static void test_exceeded(void **state)
         truth[c] = exp(-3 * (m.absorption[c] + m.scattering[c]));
     container_set set = {.count = 1, .shape = {0}};
     struct mean shadow = {.count = 0}, path = {.count = 0};
-    track_counters count = {0};
+    track_counters count = {0}, flown = {0};
     rng random = rng_make(1, 2, 3, 4);
     for (int i = 0; i < RUNS; i++) {
         mean_add(&shadow, track_transmittance(&f->view, &set, false, o, d, 0,
@@ -340,13 +340,14 @@ static void test_exceeded(void **state)
         path_state p;
         path_event event;
         path_begin(&p, o, d, &set, false, random);
-        p.count = &count;
+        p.count = &flown;
         bool through = path_media(&f->view, &p, length, &event) == PATH_THROUGH;
         mean_add(&path, through ? rgb_scale(p.beta, 1 / rgb_mean(p.r_u))
                                 : rgb_gray(0));
         random = p.random;
     }
     assert_true(count.majorant_exceeded > RUNS / 10);
+    assert_true(flown.majorant_exceeded > RUNS / 10);
     mean_check(&shadow, truth);
     mean_check(&path, truth);
     flat_free(f);

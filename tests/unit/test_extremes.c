@@ -694,8 +694,11 @@ static void extremes__lamp_on_the_ray(void **state)
 static void extremes__nothing(void **state)
 {
     (void)state;
-    for (int i = 0; i < 4; i++) {
-        struct brume_globals globals = plain_before(0.25);
+    for (int k = 0; k < 8; k++) {
+        /* Behind it a background; or a white sky, which it scatters on. */
+        int i = k % 4;
+        struct brume_globals globals = k < 4 ? plain_before(0.25)
+                                             : furnace_of(0.25);
         brume_scene *s = truth_scene(&globals, 1.0, 0.5);
         struct brume_medium m = truth_medium(0.0, i == 3 ? 0.0 : 1.0, 0.0);
         struct brume_light l = BRUME_LIGHT_INIT;
@@ -705,8 +708,8 @@ static void extremes__nothing(void **state)
             truth_fill(s, truth_box(1.0, 0.0, 1.0), &m);
         if (i > 1)
             assert_true(brume_add_light(s, &l, truth_error()) >= 0);
-        struct estimate e = truth_render(s, 4, 8);
-        double depth = i == 0 || i == 3 ? 0.0 : 1.0;
+        struct estimate e = truth_render(s, 4, k < 4 ? 8 : 128);
+        double depth = i == 0 || i == 3 || k >= 4 ? 0.0 : 1.0;
         assert_int_equal(e.stats.rejected, 0);
         check_near("background", e.mean[0], 0.25 * exp(-depth), 0.03);
     }
