@@ -65,7 +65,8 @@ static inline pixel_job backend_pixels(const struct backend_frame *frame)
     job.frame = o->frame;
     job.path = frame->stages->path || frame->stages->single;
     job.lines = frame->stages->lines;
-    job.single = o->spp == 1;
+    job.single = o->spp == 1 && frame->film->share == 1;
+    job.share = frame->film->share;
     return job;
 }
 

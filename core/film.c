@@ -29,6 +29,7 @@ bool film_init(struct film *film, const struct brume_options *options,
                  options->y1 == 0;
     film->width = options->width;
     film->height = options->height;
+    film->share = 1;
     film->x0 = options->x0;
     film->y0 = options->y0;
     film->x1 = whole ? options->width : options->x1;
@@ -57,8 +58,9 @@ static double line_count(const struct film *f)
 static double half_mean(const struct film *f, const film_pixel *p,
                         uint32_t half, int channel)
 {
-    uint32_t paths = pixel_samples(f->samples, half);
-    uint32_t lines = pixel_samples(pixel_lines(f->samples, f->lines), half);
+    uint32_t paths = pixel_shared(f->samples, f->share, half);
+    uint32_t lines = pixel_shared(pixel_lines(f->samples, f->lines), f->share,
+                                  half);
     return (paths ? p->path[half][channel] / paths : 0.0) +
            (lines ? p->line[half][channel] / lines : 0.0);
 }
@@ -93,7 +95,7 @@ static double mean_around(const struct film *f, size_t at, int channel)
 double film_error(const struct film *film)
 {
     size_t pixels = film_pixels(film);
-    if (film->samples < 4)
+    if (film->samples < 4 || film->samples < 2 * film->share)
         return INFINITY;
     double image = 0.0, sum = 0.0;
     for (size_t i = 0; i < pixels; i++)

@@ -9,6 +9,7 @@ struct film {
     int x0, y0, x1, y1;         /* the part, half open                     */
     uint32_t samples;           /* of every pixel so far                   */
     bool lines;                 /* each has run its straight line          */
+    uint32_t share;             /* so many of them see the same field      */
     film_pixel *pixel;          /* row by row of the part                  */
 };
 

@@ -16,7 +16,7 @@
 static double noise_of(const radiance_lattice *f, double power)
 {
     float lobe_g;
-    double lobe = (double)radiance_lobe(f->phase, f->g, &lobe_g);
+    double lobe = (double)radiance_lobe(f->phase[0], f->g[0], &lobe_g);
     double g2 = (double)lobe_g * (double)lobe_g;
     double peak = (1.0 + g2) / ((1.0 - g2) * (1.0 - g2));
     double phase = (1.0 + lobe * lobe * (peak - 1.0)) * (double)WARP_INV_4PI;

@@ -19,16 +19,17 @@ static bool same_numbers(const radiance_lattice *a, const radiance_lattice *b)
 {
     return a->numbers == b->numbers && a->eye == b->eye &&
            a->fluence == b->fluence && a->flux == b->flux &&
-           a->phase == b->phase && a->g == b->g && a->ball == b->ball &&
-           a->births == b->births && a->lit == b->lit;
+           a->phases == b->phases && a->phase[0] == b->phase[0] &&
+           a->g[0] == b->g[0] && a->ball == b->ball && a->births == b->births &&
+           a->lit == b->lit;
 }
 
 /* The most by which the logarithm of a phase function changes per radian;
  * Henyey and Greenstein's: 3 g sin / (1 + g^2 - 2 g cos). */
 static double steepness(const radiance_lattice *f)
 {
-    double g = fabs((double)f->g);
-    switch (f->phase) {
+    double g = fabs((double)f->g[0]);
+    switch (f->phase[0]) {
     case PHASE_HENYEY_GREENSTEIN:
         return 3.0 * g / (1.0 - g * g);
     case PHASE_RAYLEIGH:

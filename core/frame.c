@@ -14,6 +14,9 @@
 /* Samples of the first pass: enough for a first estimate of the error. */
 #define FIRST_PASS 8u
 
+/* Samples of a pixel for a field of progressive's own, at most. */
+#define MOST_SHARE 64u
+
 /* Entries of a kd-tree's stack, if no other number is asked for. */
 #define DEFAULT_STACK 4
 
@@ -76,6 +79,22 @@ static void set_goal(struct frame_job *j)
     bool none = o->spp <= 0 && o->error <= 0.0 && o->seconds <= 0.0;
     j->error = none ? BRUME_DEFAULT_ERROR : fmax(o->error, 0.0);
     j->most = o->spp > 0 ? (uint32_t)o->spp : BRUME_MAX_SPP;
+}
+
+/* Of progressive each sample asked for is a field and as many samples of each
+ * pixel as do not cost more than its photons, about: in small pictures they
+ * are what averages the field's noise over the pixel. Pictures in parts have
+ * the whole one's. */
+static void set_share(struct frame_job *j)
+{
+    const struct brume_options *o = j->options;
+    uint64_t pixels = (uint64_t)o->width * (uint64_t)o->height;
+    uint32_t share = 1;
+    while (j->stages.passes && share < MOST_SHARE &&
+           4u * share * pixels <= photons_asked(o))
+        share *= 2;
+    j->film.share = share;
+    j->most *= share;
 }
 
 /* How much of the whole is done, as far as can be told. */
@@ -164,10 +183,11 @@ static uint32_t time_allows(const struct frame_job *j, uint32_t want)
 static uint32_t next_pass(const struct frame_job *j, int met)
 {
     uint32_t n = j->film.samples;
-    uint32_t want = n == 0 ? FIRST_PASS : n;
+    uint32_t even = 2u * j->film.share; /* the halves stay equal */
+    uint32_t want = n == 0 ? FIRST_PASS * j->film.share : n;
     if (n > 0 && j->error > 0.0)
         want = error_wants(j, met);
-    want += want & 1u; /* the halves stay equal */
+    want += (even - want % even) % even;
     want = want < j->most - n ? want : j->most - n;
     return time_allows(j, want);
 }
@@ -288,20 +308,24 @@ static bool sample_some(struct frame_job *j, struct brume_error *err)
     return true;
 }
 
-/* As many samples, each of a field of its own, so that the halves of the film
- * tell what the fields' noise is, too. */
+/* As many samples, `share` of each field, so that the halves of the film tell
+ * what the fields' noise is, too. */
 static bool sample_fields(struct frame_job *j, struct brume_error *err)
 {
+    uint32_t share = j->film.share;
     bool good = true;
-    for (uint32_t left = j->left; good && left > 0; left--) {
+    for (uint32_t left = j->left; good && left > 0;) {
+        uint32_t n = j->film.samples, some = share - n % share;
+        some = some < left ? some : left;
         j->piece = 0;
-        good = radiance_renew(j->flat, j->options, j->film.samples, err) &&
+        good = radiance_renew(j->flat, j->options, n / share, err) &&
                check_memory(j, j->flat, err) &&
                (!j->backend->renew || j->backend->renew(j->state, err)) &&
                run_photons(j, err);
-        j->left = 1;
+        left -= some;
+        j->left = some;
         good = good && sample_some(j, err);
-        j->left += left - 1;
+        j->left += left;
     }
     return good;
 }
@@ -407,7 +431,7 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
         return brume_fail(err, BRUME_ERR_USAGE,
                           "backend %s has no integrator progressive yet",
                           b->name);
-    uint32_t pass = j->stages.passes ? j->film.samples : 0;
+    uint32_t pass = j->stages.passes ? j->film.samples / j->film.share : 0;
     if (!photons_plan(flat, j->options, pass, &photons, err))
         return false;
     double start = timer_seconds();
@@ -456,6 +480,7 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
         return false;
     j->stages = plan_stages(j->flat, j->options);
     j->film.lines = j->stages.lines;
+    set_share(j);
     load_part(j);
     struct backend_frame frame = {j->flat,  j->options, &j->stages,
                                   &j->film, tick,       j};

@@ -12,7 +12,7 @@
 #define FIELD_CELLS 64.0
 
 /* Lights that cells hold the light of, at most. */
-#define LIT_LIGHTS 4
+#define LIT_LIGHTS 16
 
 /* Cells of a refined field, whose numbers have 29 bits of a slot. */
 #define MOST_REFINED (UINT64_C(1) << 29)
@@ -52,25 +52,65 @@ static double voxel_side(const struct flat *f)
     return side;
 }
 
-static bool is_isotropic(const flat_medium *m)
+static bool phase_is_even(int32_t phase, float g)
 {
-    return m->phase == PHASE_ISOTROPIC ||
-           (m->phase == PHASE_HENYEY_GREENSTEIN && m->g == 0.0f);
+    return phase == PHASE_ISOTROPIC ||
+           (phase == PHASE_HENYEY_GREENSTEIN && g == 0.0f);
 }
 
-/* The first medium that scatters; *alike: all others do so likewise. */
-static const flat_medium *first_phase(const struct flat *f, bool *alike)
+static bool is_alike(const flat_medium *a, const flat_medium *b)
 {
-    const flat_medium *first = NULL;
-    *alike = true;
+    return (phase_is_even(a->phase, a->g) && phase_is_even(b->phase, b->g)) ||
+           (a->phase == b->phase && a->g == b->g);
+}
+
+/* Place of a medium's phase function among those known, or `count`. */
+static int place_of(const flat_medium *m, const flat_medium *const *known,
+                    int count)
+{
+    int i = 0;
+    while (i < count && !is_alike(m, known[i]))
+        i++;
+    return i;
+}
+
+/* Finds a medium of each phase function that scatters. False: there are more
+ * than MAX_PHASES. */
+static bool list_phases(const struct flat *f, const flat_medium **known,
+                        int *count)
+{
+    *count = 0;
     for (size_t i = 0; i < f->media_count; i++) {
         const flat_medium *m = &f->media[i];
-        if (rgb_is_black(m->sigma_s))
+        if (rgb_is_black(m->sigma_s) || place_of(m, known, *count) < *count)
             continue;
-        first = first ? first : m;
-        *alike = *alike && m->phase == first->phase && m->g == first->g;
+        if (*count == MAX_PHASES)
+            return false;
+        known[(*count)++] = m;
     }
-    return first;
+    return true;
+}
+
+/* Names the phase functions of the field, and of each medium its own. Where
+ * there are too many, or balls need none, all go by the first. */
+static bool choose_phases(const struct flat *f, bool passes,
+                          radiance_lattice *out)
+{
+    const flat_medium *known[MAX_PHASES];
+    int count;
+    bool told = list_phases(f, known, &count);
+    out->ball = out->ball || (passes && !told);
+    bool all = told && !out->ball;
+    out->phases = all ? count : 1;
+    for (int i = 0; i < out->phases; i++) {
+        out->phase[i] = known[i]->phase;
+        out->g[i] = known[i]->g;
+    }
+    for (size_t i = 0; i < f->media_count; i++) {
+        int place = place_of(&f->media[i], known, out->phases);
+        f->media[i].kind = place < out->phases ? place : 0;
+    }
+    return told;
 }
 
 static bool has_surfaces(const struct flat *f)
@@ -82,17 +122,17 @@ static bool has_surfaces(const struct flat *f)
 }
 
 /* Where single.h seeks it, in a picture alone of densities that are known along
- * lines and scatter alike, and where lights are few enough to look at all. */
+ * lines, and where lights are few enough to look at all. */
 bool radiance_keeps_lit(const struct flat *f,
                         const struct brume_options *options)
 {
     const struct brume_photon_options *o = &options->photons;
-    bool alike;
-    first_phase(f, &alike);
-    if (options->integrator != BRUME_INTEGRATOR_PHOTON || !alike ||
-        o->gather == BRUME_GATHER_BALL || o->single == BRUME_SINGLE_FIELD ||
-        brume_film_reach(options) > 0 || o->film_cells ||
-        f->view.local_lights || f->lights_count < 1 ||
+    const flat_medium *known[MAX_PHASES];
+    int count;
+    if (options->integrator != BRUME_INTEGRATOR_PHOTON ||
+        !list_phases(f, known, &count) || o->gather == BRUME_GATHER_BALL ||
+        o->single == BRUME_SINGLE_FIELD || brume_film_reach(options) > 0 ||
+        o->film_cells || f->view.local_lights || f->lights_count < 1 ||
         f->lights_count > LIT_LIGHTS)
         return false;
     for (size_t i = 0; i < f->media_count; i++)
@@ -101,46 +141,45 @@ bool radiance_keeps_lit(const struct flat *f,
     return true;
 }
 
+/* The next place of so many numbers. */
+static int32_t add_numbers(radiance_lattice *out, int32_t count)
+{
+    out->numbers += count;
+    return out->numbers - count;
+}
+
 /* The eye's rays ask for what goes there, those that surfaces send on for
- * what goes anywhere. Of many fields none may be wrong but by its cells: where
- * a fluence and a flux are not enough, only the eye's straight lines read
- * them, and media that scatter differently are gathered by balls. */
+ * what goes anywhere, and so do other frames' of a film where media scatter
+ * differently. Of many fields none may be wrong but by its cells: where a
+ * fluence and a flux are not enough, only the eye's straight lines read them,
+ * and media of more phase functions than cells keep are gathered by balls. */
 static void choose_numbers(struct layout *l)
 {
     const struct flat *f = l->flat;
     radiance_lattice *out = &l->field;
-    bool alike;
-    const flat_medium *m = first_phase(f, &alike);
-    bool even = alike && is_isotropic(m);
+    bool known = choose_phases(f, l->passes, out);
+    bool alike = known && out->phases == 1;
+    bool even = alike && phase_is_even(out->phase[0], out->g[0]);
     bool bounces = f->view.surfaces_indirect && has_surfaces(f);
     out->eye = out->fluence = out->flux = -1;
-    out->phase = m->phase;
-    out->g = m->g;
     out->numbers = 0;
-    out->ball = out->ball || (l->passes && !alike);
     out->straight = l->passes && (out->ball || !even);
     bounces = bounces && !out->straight;
     l->seen = !bounces && !l->options->everywhere && !f->view.view.orthographic;
-    if (out->ball || (alike && !even)) {
-        out->eye = 0;
-        out->numbers = 3;
-    }
+    if (out->ball)
+        out->eye = add_numbers(out, 3);
+    else if (known && !even && (alike || !l->snap))
+        out->eye = add_numbers(out, 3 * out->phases);
     if (out->ball && out->births)
-        out->births = out->numbers++;
+        out->births = add_numbers(out, 1);
     if (out->ball)
         return;
-    if (out->eye < 0 || bounces) {
-        out->fluence = out->numbers;
-        out->numbers += 3;
-    }
-    if (out->fluence >= 0 && !even) {
-        out->flux = out->numbers;
-        out->numbers += 9;
-    }
-    if (l->lit) {
-        out->lit = out->numbers;
-        out->numbers += 3;
-    }
+    if (out->eye < 0 || bounces)
+        out->fluence = add_numbers(out, 3);
+    if (out->fluence >= 0 && !even)
+        out->flux = add_numbers(out, 9);
+    if (l->lit)
+        out->lit = add_numbers(out, 3 * out->phases);
 }
 
 /* The largest density that a medium may have in a box of unit space. */
@@ -334,7 +373,9 @@ static double first_side(const struct flat *f)
 
 static uint64_t field_bytes(const struct layout *l, uint64_t cells)
 {
-    return cells * (uint64_t)l->field.numbers * NUMBER_BYTES;
+    /* Passes keep means beside what they make of them. */
+    uint64_t each = NUMBER_BYTES + (l->passes ? sizeof(float) : 0);
+    return cells * (uint64_t)l->field.numbers * each;
 }
 
 static bool check_options(const struct layout *l, struct brume_error *err)

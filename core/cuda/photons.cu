@@ -112,6 +112,15 @@ __global__ void resolve(const int64_t *sum, float *cells, uint64_t count,
         cells[i] = static_cast<float>(static_cast<double>(sum[i]) * scale);
 }
 
+/* A brick a block, a cell a thread. */
+__global__ void sharpen(const __grid_constant__ flat_scene scene,
+                        const float *means, float *cells)
+{
+    if (scene.radiance_slots[blockIdx.x] >= 0)
+        radiance_sharpen(&scene, means, blockIdx.x,
+                         static_cast<int>(threadIdx.x), cells);
+}
+
 }
 
 size_t photons_bytes(const cuda_state *s)
@@ -165,6 +174,16 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
     return read_totals(s, stats, err);
 }
 
+/* Where passes have means of their own to sharpen from. */
+static void sharpen_cells(cuda_state *s, uint64_t count)
+{
+    unsigned bricks = static_cast<unsigned>(
+        s->frame.flat->view.radiance_slots_count);
+    cudaMemcpyAsync(s->means, s->cells, count * sizeof *s->cells,
+                    cudaMemcpyDeviceToDevice);
+    sharpen<<<bricks, 512>>>(s->job.scene, s->means, s->cells);
+}
+
 bool cuda_gather(void *state, double unit, brume_error *err)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
@@ -179,6 +198,8 @@ bool cuda_gather(void *state, double unit, brume_error *err)
     if (unit > 0.0)
         resolve<<<static_cast<unsigned>(blocks), block_size>>>(
             s->sum, s->cells, count, radiance_scale(f, unit));
+    if (s->frame.stages->passes && !f->ball && !f->refined)
+        sharpen_cells(s, count);
     if (unit > 0.0 && f->ball)
         s->photons->balls(&job);
     if (f->single || f->lit)
@@ -228,7 +249,7 @@ bool cuda_renew(void *state, brume_error *err)
     size_t cells = from->radiance_count * sizeof *from->radiance;
     size_t sums = radiance_sum_bytes(s->frame.flat);
     if (!make_room(&s->field,
-                   device_round(slots) + device_round(cells) +
+                   device_round(slots) + 2 * device_round(cells) +
                        device_round(sums),
                    err))
         return false;
@@ -239,6 +260,7 @@ bool cuda_renew(void *state, brume_error *err)
     to->radiance_slots = static_cast<int32_t *>(at);
     s->cells = static_cast<float *>(device_take(&s->field, cells));
     to->radiance = s->cells;
+    s->means = static_cast<float *>(device_take(&s->field, cells));
     s->sum = static_cast<int64_t *>(device_take(&s->field, sums));
     return device_check(cudaMemcpy(at, from->radiance_slots, slots,
                                    cudaMemcpyHostToDevice),

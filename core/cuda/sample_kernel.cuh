@@ -93,7 +93,8 @@ sample_paths(const __grid_constant__ sample_job job)
             pixel_begin(&job.scene, &job.pixels, x, y, i++, &path, &count);
         alive = more && single_segment(&job.scene, &path, &count);
         if (more && !alive) {
-            pixel_end(&path, i - 1u, &job.pixel[at], &count);
+            pixel_end(&path, pixel_half((i - 1u) / job.pixels.share),
+                      &job.pixel[at], &count);
             more = i < job.first + job.samples;
         }
     }

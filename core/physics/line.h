@@ -221,7 +221,8 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
 {
     line_point out;
     radiance_point light = radiance_nothing();
-    bool read = false, births = line_has_births(job);
+    int read = RADIANCE_ANYWHERE;
+    bool births = line_has_births(job);
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
@@ -235,9 +236,10 @@ HD line_point line_at(const line_job *job, const media_walk *w, float t)
             q = line_glow(job, w, i, medium_source(job->s, m, &x, density), p,
                           t);
         bool scatters = line_scatters(job, m, density);
-        if (!read && (scatters || (births && !rgb_is_black(q)))) {
-            light = radiance_at(job->s, p, true);
-            read = true;
+        if (read != m->kind &&
+            (scatters || (births && !rgb_is_black(q)))) {
+            light = radiance_at(job->s, p, m->kind);
+            read = m->kind;
         }
         if (scatters)
             out.source = rgb_add(out.source,
@@ -260,7 +262,8 @@ HD line_twins line_at_twins(const line_job *job, const media_walk *w, float ta,
 {
     line_twins out;
     radiance_point light = radiance_nothing();
-    bool read = false, births = line_has_births(job);
+    int read = RADIANCE_ANYWHERE;
+    bool births = line_has_births(job);
     out.a.sigma_t = out.a.source = rgb_gray(0.0f);
     out.b = out.a;
     vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
@@ -284,11 +287,11 @@ HD line_twins line_at_twins(const line_job *job, const media_walk *w, float ta,
         bool scatters = line_scatters(job, m, density.a) ||
                         line_scatters(job, m, density.b);
         bool emits = !rgb_is_black(q.a) || !rgb_is_black(q.b);
-        if (!read && (scatters || (births && emits))) {
+        if (read != m->kind && (scatters || (births && emits))) {
             light = radiance_at(job->s,
                                 vec3_mad(job->o, 0.5f * (ta + tb), job->d),
-                                true);
-            read = true;
+                                m->kind);
+            read = m->kind;
         }
         if (scatters) {
             rgb in = line_light(job, m, &light);

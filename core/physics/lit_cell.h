@@ -7,15 +7,26 @@
 #define LIT_CELL_PASS 0xfffffffcu
 
 /* What goes on to the eye of light from wi: in a field of balls of what the
- * media scatter, else of the light. */
+ * media scatter, else of the light, by the field's phase function `kind`. */
 HD rgb lit_cell_seen(const flat_scene *s, const path_state *p,
-                     const ball_media *ball, vec3 wi)
+                     const ball_media *ball, vec3 wi, int kind)
 {
     const radiance_lattice *f = &s->field;
     if (f->ball)
         return ball_scattered(s, ball, p->d, wi);
-    return rgb_gray(phase_eval_between(f->phase, f->g, p->d, wi) *
-                    phase_pov_scale(f->phase) * light_medium_factor(s));
+    return rgb_gray(phase_eval_between(f->phase[kind], f->g[kind], p->d, wi) *
+                    phase_pov_scale(f->phase[kind]) * light_medium_factor(s));
+}
+
+/* Adds that of all kinds to the numbers from `out` on. */
+HD void lit_cell_add(const flat_scene *s, const path_state *p,
+                     const ball_media *ball, vec3 wi, rgb in, float *out)
+{
+    for (int i = 0; i < radiance_phases(&s->field); i++) {
+        rgb seen = rgb_mul(in, lit_cell_seen(s, p, ball, wi, i));
+        for (int c = 0; c < 3; c++)
+            out[3 * i + c] += rgb_get(seen, c);
+    }
 }
 
 /* Adds a light's part to the numbers of the cell around x. */
@@ -33,19 +44,12 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
         in = rgb_mul(in, shadow_line(s, &set, x, l.shadow_wi,
                                      l.shadow_distance,
                                      line_jitter_draw(s, &p->random)));
-    if (f->lit) {
-        rgb lit = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));
-        for (int c = 0; c < 3; c++)
-            out[f->lit + c] += rgb_get(lit, c);
+    if (f->lit || f->eye >= 0)
+        lit_cell_add(s, p, ball, l.wi, in, out + (f->lit ? f->lit : f->eye));
+    if (f->lit)
         return;
-    }
-    rgb seen = rgb_gray(0.0f);
-    if (f->eye >= 0)
-        seen = rgb_mul(in, lit_cell_seen(s, p, ball, l.wi));
     in = rgb_scale(in, light_medium_factor(s));
     for (int c = 0; c < 3; c++) {
-        if (f->eye >= 0)
-            out[f->eye + c] += rgb_get(seen, c);
         if (f->fluence >= 0)
             out[f->fluence + c] += rgb_get(in, c);
         for (int k = 0; f->flux >= 0 && k < 3; k++)

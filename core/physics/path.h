@@ -393,7 +393,8 @@ HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
 {
     if (p->straight)
         return;
-    radiance_point x = radiance_at(s, v->p, s->field.ball);
+    radiance_point x = radiance_at(s, v->p, s->field.ball ? 0
+                                                         : RADIANCE_ANYWHERE);
     if (s->field.ball) {
         /* Toward the eye: all that there is. */
         float scale = path_thickness(s, &p->inside, v->p) / v->event->sigma_s;

@@ -27,6 +27,7 @@ typedef struct {
     int32_t path;           /* 0: nothing but the straight line gives light */
     int32_t lines;          /* 1: the straight line has noise too          */
     int32_t single;         /* 1: one sample a pixel is all there will be  */
+    uint32_t share;         /* so many samples see the same field          */
 } pixel_job;
 
 /* The straight line needs no noise cut, only edges smoothed: it is run by all
@@ -60,6 +61,14 @@ HD uint32_t pixel_samples(uint32_t n, uint32_t half)
     return n / 2u + ((n & 1u) && pixel_half(n - 1u) == half ? 1u : 0u);
 }
 
+/* The same where `share` samples see one field, and are of one half. */
+HD uint32_t pixel_shared(uint32_t n, uint32_t share, uint32_t half)
+{
+    uint32_t fields = n / share;
+    return share * pixel_samples(fields, half) +
+           (pixel_half(fields) == half ? n % share : 0u);
+}
+
 /* The number of sample i's line among all lines. */
 HD uint32_t pixel_line_number(uint32_t i, bool all)
 {
@@ -88,7 +97,7 @@ HD void pixel_sum(double out[3], rgb c)
 
 /* Adds sample i's line, the number-th of all lines. */
 HD void pixel_add_line(const flat_scene *s, vec3 d, uint32_t i,
-                       uint32_t number, const march_result *m,
+                       uint32_t half, const march_result *m,
                        film_pixel *out, track_counters *count)
 {
     count->overflow += m->overflow;
@@ -96,7 +105,7 @@ HD void pixel_add_line(const flat_scene *s, vec3 d, uint32_t i,
         count->rejected++;
         return;
     }
-    pixel_sum(out->line[pixel_half(number)], m->radiance);
+    pixel_sum(out->line[half], m->radiance);
     pixel_sum(out->background, m->background);
     pixel_sum(out->opacity, m->opacity);
     if (i == 0u)
@@ -169,6 +178,7 @@ typedef struct {
     int32_t x, y;
     uint32_t i, end;        /* the sample that is next, and the last's     */
     uint32_t number;        /* of the line that is on                      */
+    uint32_t half;          /* ... and what it is counted in               */
     march_state march;
 } pixel_liner;
 
@@ -196,6 +206,7 @@ HD void pixel_take(const flat_scene *s, const pixel_job *job, pixel_liner *l)
     if (l->next == PIXEL_ENDS)
         return;
     l->number = pixel_line_number(l->i, all);
+    l->half = pixel_half(l->number / job->share);
     pixel_ray(s, job, l->x, l->y, l->number, &o, &d, &set, &along);
     march_begin(&l->march, &set, o, d, along);
 }
@@ -219,7 +230,7 @@ HD void pixel_land(const flat_scene *s, pixel_liner *l, film_pixel *out,
         return;
     }
     march_result m = march_end(s, &l->march);
-    pixel_add_line(s, l->march.d, l->i++, l->number, &m, out, count);
+    pixel_add_line(s, l->march.d, l->i++, l->half, &m, out, count);
     l->next = PIXEL_TAKES;
 }
 
@@ -257,11 +268,11 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
     count->paths++;
 }
 
-HD void pixel_end(const path_state *path, uint32_t i, film_pixel *out,
+HD void pixel_end(const path_state *path, uint32_t half, film_pixel *out,
                   track_counters *count)
 {
     if (pixel_finite(path->radiance))
-        pixel_sum(out->path[pixel_half(i)], path->radiance);
+        pixel_sum(out->path[half], path->radiance);
     else
         count->rejected++;
 }
@@ -285,7 +296,7 @@ HD void pixel_paths_run(const flat_scene *s, const pixel_job *job, int32_t x,
             pixel_begin(s, job, x, y, i++, &path, count);
         alive = single_segment(s, &path, count);
         if (!alive)
-            pixel_end(&path, i - 1u, out, count);
+            pixel_end(&path, pixel_half((i - 1u) / job->share), out, count);
     }
 }
 

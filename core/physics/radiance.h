@@ -99,6 +99,41 @@ HD vec3 radiance_middle(const flat_scene *s, uint64_t brick, int i)
                      f->origin[2] + ((float)z + half) * f->side);
 }
 
+/* A cell's neighbour along an axis, or -1. */
+HD int64_t radiance_neighbor(const flat_scene *s, int x, int y, int z,
+                             int axis, int step)
+{
+    x += axis == 0 ? step : 0;
+    y += axis == 1 ? step : 0;
+    z += axis == 2 ? step : 0;
+    int at = axis == 0 ? x : axis == 1 ? y : z;
+    return at >= 0 && at < 8 * s->field.bricks[axis] ? radiance_cell(s, x, y, z)
+                                                     : -1;
+}
+
+/* Takes from cell i of a brick that is there what means of cells and the
+ * interpolation between them add to a curved field: together they blur by a
+ * kernel whose second moment is side^2 / 12 + side^2 / 6 along each axis, so
+ * an eighth of the second differences is too much. */
+HD void radiance_sharpen(const flat_scene *s, const float *means,
+                         uint64_t brick, int i, float *cells)
+{
+    const radiance_lattice *f = &s->field;
+    uint64_t row = brick / (uint64_t)f->bricks[0];
+    int x = 8 * (int)(brick % (uint64_t)f->bricks[0]) + (i & 7);
+    int y = 8 * (int)(row % (uint64_t)f->bricks[1]) + (i >> 3 & 7);
+    int z = 8 * (int)(row / (uint64_t)f->bricks[1]) + (i >> 6);
+    int64_t n = f->numbers;
+    int64_t at = ((int64_t)s->radiance_slots[brick] * 512 + i) * n;
+    for (int axis = 0; axis < 3; axis++) {
+        int64_t a = n * radiance_neighbor(s, x, y, z, axis, -1);
+        int64_t b = n * radiance_neighbor(s, x, y, z, axis, 1);
+        for (int64_t k = 0; a >= 0 && b >= 0 && k < n; k++)
+            cells[at + k] -= 0.125f * ((means[a + k] - means[at + k]) +
+                                       (means[b + k] - means[at + k]));
+    }
+}
+
 /* By what a field of balls is spread over a medium. */
 HD float radiance_thickness(const flat_medium *m, rgb density)
 {
@@ -110,6 +145,12 @@ HD void radiance_add_rgb(int64_t *sum, rgb value)
     radiance_add(sum, (double)value.r);
     radiance_add(sum + 1, (double)value.g);
     radiance_add(sum + 2, (double)value.b);
+}
+
+/* Phase functions that the field knows; of one medium there is one. */
+HD int radiance_phases(const radiance_lattice *f)
+{
+    return scene_may(MAY_MANY) ? f->phases : 1;
 }
 
 /* The way from p to the eye. */
@@ -131,10 +172,10 @@ HD void radiance_deposit(const flat_scene *s, radiance_tally *t, int64_t cell,
         t->clipped++;
         return;
     }
-    if (f->eye >= 0)
-        radiance_add_rgb(sum + f->eye,
-                         rgb_scale(value, phase_eval_between(f->phase, f->g,
-                             d, radiance_to_eye(s, p))));
+    for (int i = 0; f->eye >= 0 && i < radiance_phases(f); i++)
+        radiance_add_rgb(sum + f->eye + 3 * i,
+                         rgb_scale(value, phase_eval_between(f->phase[i],
+                             f->g[i], d, radiance_to_eye(s, p))));
     if (f->fluence >= 0)
         radiance_add_rgb(sum + f->fluence, value);
     for (int c = 0; f->flux >= 0 && c < 3; c++) {
@@ -312,17 +353,24 @@ HD rgb radiance_rgb(const float *v)
     return rgb_make(v[0], v[1], v[2]);
 }
 
-/* What a cell has, `weight` times; `eye`: only what goes there, if the field
- * has it. */
-HD void radiance_blend(const radiance_lattice *f, const float *v, bool eye,
+/* Asks for what goes anywhere. */
+#define RADIANCE_ANYWHERE (-1)
+
+/* What a cell has, `weight` times; `kind`: only what that phase function sends
+ * to the eye, if the field has it. */
+HD void radiance_blend(const radiance_lattice *f, const float *v, int kind,
                        float weight, radiance_point *out)
 {
+    bool eye = kind != RADIANCE_ANYWHERE;
+    int place = scene_may(MAY_MANY) ? 3 * kind : 0;
     if (eye && f->lit)
         out->lit = rgb_add(out->lit,
-                           rgb_scale(radiance_rgb(v + f->lit), weight));
+                           rgb_scale(radiance_rgb(v + f->lit + place),
+                                     weight));
     if (eye && f->eye >= 0) {
         out->eye = rgb_add(out->eye,
-                           rgb_scale(radiance_rgb(v + f->eye), weight));
+                           rgb_scale(radiance_rgb(v + f->eye + place),
+                                     weight));
         if (f->births)
             out->births += v[f->births] * weight;
         return;
@@ -361,7 +409,7 @@ HD int radiance_place(const radiance_lattice *f, float p, int axis, int level,
 /* Adds what cells of 2^level sides tell of p to *out, `share` times, and the
  * weight of those that are there to *sum: interpolated between their centres,
  * at each of which stands the cell that is there, whatever its level. */
-HD void radiance_gather(const flat_scene *s, vec3 p, bool eye, int level,
+HD void radiance_gather(const flat_scene *s, vec3 p, int kind, int level,
                         float share, radiance_point *out, float *sum)
 {
     float fraction[3];
@@ -381,7 +429,7 @@ HD void radiance_gather(const flat_scene *s, vec3 p, bool eye, int level,
                                      ((at[2] + z) << level) + half);
         if (cell < 0)
             continue;
-        radiance_blend(&s->field, s->radiance + cell * s->field.numbers, eye,
+        radiance_blend(&s->field, s->radiance + cell * s->field.numbers, kind,
                        weight, out);
         *sum += weight;
     }
@@ -389,7 +437,7 @@ HD void radiance_gather(const flat_scene *s, vec3 p, bool eye, int level,
 
 /* The same from levels that change: within a cell of a brick's face the next
  * one's level has its part, half of it at the face, so that nothing jumps. */
-HD_APART radiance_point radiance_mixed(const flat_scene *s, vec3 p, bool eye,
+HD_APART radiance_point radiance_mixed(const flat_scene *s, vec3 p, int kind,
                                        float *sum)
 {
     const radiance_lattice *f = &s->field;
@@ -422,24 +470,25 @@ HD_APART radiance_point radiance_mixed(const flat_scene *s, vec3 p, bool eye,
     }
     for (int level = 0; level < 4; level++)
         if (part[level] > 0.0f)
-            radiance_gather(s, p, eye, level, part[level], &out, sum);
+            radiance_gather(s, p, kind, level, part[level], &out, sum);
     return out;
 }
 
-/* Interpolated between the centres of those cells that are there. `eye`: for
- * the light that goes on to the eye, see radiance_seen. Where there are none,
- * nothing tells against as many births as should be. */
-HD radiance_point radiance_at(const flat_scene *s, vec3 p, bool eye)
+/* Interpolated between the centres of those cells that are there. `kind`: for
+ * the light that goes on to the eye by that phase function, see radiance_seen;
+ * of balls, 0: all of it. Where there are none, nothing tells against as many
+ * births as should be. */
+HD radiance_point radiance_at(const flat_scene *s, vec3 p, int kind)
 {
     radiance_point out;
     float sum = 0.0f;
     if (s->field.refined) {
         float weight = 0.0f;
-        out = radiance_mixed(s, p, eye, &weight);
+        out = radiance_mixed(s, p, kind, &weight);
         sum = weight;
     } else {
         out = radiance_nothing();
-        radiance_gather(s, p, eye, 0, 1.0f, &out, &sum);
+        radiance_gather(s, p, kind, 0, 1.0f, &out, &sum);
     }
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     out.births = sum > 0.0f ? out.births * scale : 1.0f;

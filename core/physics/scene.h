@@ -17,6 +17,9 @@
 enum { FIELD_CONSTANT, FIELD_GRID, FIELD_FUNCTION };
 enum { BRICK_SIDE = 9, BRICK_FLOATS = 729 };    /* 8^3 samples + upper apron */
 enum { MAX_DENSITIES = 4, MAX_PLANES = 6 };
+
+/* Phase functions of media that a field of light tells apart. */
+enum { MAX_PHASES = 4 };
 /* Media, and shapes with media, at one place that are followed. */
 enum { MAX_ACTIVE = (SCENE_MAY & MAY_MANY) ? 16 : 1,
        MAX_CONTAINERS = MAX_ACTIVE };
@@ -80,6 +83,7 @@ typedef struct {
     rgb emission;
     int32_t phase;          /* POV-Ray's number                            */
     float g;
+    int32_t kind;           /* that one's place among those of the field   */
     int32_t densities, density[MAX_DENSITIES];
     float densest;          /* more counts as this: where it scatters, places
                                must differ from one event to the next      */
@@ -233,17 +237,19 @@ typedef struct {
 
 /* Light that has been scattered, in cells of a cubic lattice over the media; in
  * bricks of 8^3, where something scatters. A cell holds what is asked of it:
- * Int p L toward the eye, where all media have the same phase function p and
- * it is not isotropic; the fluence Int L; the vector flux. In unit space. */
+ * Int p L toward the eye for each phase function p of the media; the fluence
+ * Int L; the vector flux. In unit space. */
 typedef struct {
     float origin[3];        /* unit space: the lattice's lowest corner     */
     float side;             /* of a cell                                   */
     int32_t bricks[3];
-    int32_t numbers;        /* of a cell: of each of these 3, and 9 of the
-                               flux, x y z of each channel; 0: no field    */
+    int32_t numbers;        /* of a cell: of each of these 3, of eye and lit
+                               for each p, and 9 of the flux, x y z of each
+                               channel; 0: no field                        */
     int32_t eye, fluence, flux;     /* place of the first, or -1           */
-    int32_t phase;          /* p                                           */
-    float g;
+    int32_t phases;         /* how many p there are                        */
+    int32_t phase[MAX_PHASES];
+    float g[MAX_PHASES];
     int32_t refined;        /* 1: a brick's cells are the larger the thinner its
                                media are, see radiance_slot                */
     int32_t ball;           /* 1: instead, what all media scatter toward the

@@ -21,6 +21,7 @@ enum { SINGLE_PIECES = 64, SINGLE_EVEN = 48, SINGLE_POINTS = 2 };
 typedef struct {
     int32_t count;
     float t[SINGLE_PIECES + 1], sum[SINGLE_PIECES + 1];
+    int32_t thick;          /* transmittance is worth its exact integral   */
 } single_profile;
 
 /* Full, it goes on with half the pieces. */
@@ -80,7 +81,7 @@ HD void single_piece(single_profile *f, const media_walk *w, float sigma_s,
 HD bool single_look(const flat_scene *s, const path_state *p, float t1,
                     single_profile *f)
 {
-    const float surely = 0.1f, enough = 30.0f;
+    const float surely = 0.1f, enough = 30.0f, thick = 1.0f;
     media_walk w;
     double tau = 0.0;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
@@ -97,6 +98,7 @@ HD bool single_look(const flat_scene *s, const path_state *p, float t1,
         single_piece(f, &w, middle + surely * (bound - middle), all, even,
                      &tau);
     } while (tau < (double)enough && walk_next(s, &w));
+    f->thick = tau > (double)thick && s->procedures_count == 0;
     return f->sum[f->count] > 0.0f;
 }
 
@@ -203,9 +205,38 @@ HD bool single_lit(const flat_scene *s, const flat_light *l, vec3 o, vec3 d,
 
 /* ---- light ------------------------------------------------------------- */
 
+/* What passes of the eye's ray up to t. Where media are thick, ratio tracking
+ * takes as long as the integral, and makes most of the noise: of a cloud, a
+ * fourth part of the variance is left in the same time. */
+HD rgb single_passes(const flat_scene *s, path_state *p,
+                     const single_profile *f, float t)
+{
+    if (!f->thick)
+        return track_transmittance(s, &p->inside, true, p->o, p->d,
+                                   p->after.t, t, &p->random, p->count);
+    line_integral line = line_zero();
+    line_integrate(s, &p->inside, p->o, p->d, p->after.t, t, 0.0f, false,
+                   false, line_jitter_make(0.5f, 0.5f), &line);
+    return line_transmittance(&line);
+}
+
+/* What comes of the light of a sample. */
+HD rgb single_comes(const flat_scene *s, path_state *p,
+                    const single_profile *f, const path_vertex *v,
+                    const light_sample *l)
+{
+    if (!f->thick || !s->lights[l->light].shadows)
+        return path_lit(s, p, v, l);
+    container_set set = p->inside;
+    p->count->shadow_rays++;
+    return rgb_mul(l->color, shadow_line(s, &set, v->p, l->shadow_wi,
+                                         l->shadow_distance,
+                                         line_jitter_make(0.5f, 0.5f)));
+}
+
 /* Adds what light i gives at distance t, over the density of its choice. */
-HD void single_point(const flat_scene *s, path_state *p, int i, float t,
-                     float density)
+HD void single_point(const flat_scene *s, path_state *p,
+                     const single_profile *f, int i, float t, float density)
 {
     path_vertex v;
     light_sample l;
@@ -219,11 +250,10 @@ HD void single_point(const flat_scene *s, path_state *p, int i, float t,
     p->count->lookups++;
     if (rgb_is_black(value))
         return;
-    value = rgb_mul(value, path_lit(s, p, &v, &l));
+    value = rgb_mul(value, single_passes(s, p, f, t));
     if (rgb_is_black(value))
         return;
-    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
-        p->after.t, t, &p->random, p->count));
+    value = rgb_mul(value, single_comes(s, p, f, &v, &l));
     p->count->collisions++;
     path_add(p, rgb_mul(p->beta, value));
 }
@@ -244,15 +274,38 @@ HD void single_light(const flat_scene *s, path_state *p,
         float share = ((float)k + u) / (float)SINGLE_POINTS;
         float t = single_place(f, before + share * all, &density);
         if (density > 0.0f)
-            single_point(s, p, i, t,
+            single_point(s, p, f, i, t,
                          density * (float)SINGLE_POINTS / all);
     }
 }
 
-/* Scattering of all media at x. */
-HD rgb single_sigma(const flat_scene *s, const path_state *p, vec3 x)
+/* What one light gives at x, of which `toward` it does; black where it does not
+ * come. */
+HD rgb single_arrives(const flat_scene *s, path_state *p, int light, vec3 x,
+                      vec3 *toward)
 {
-    rgb sum = rgb_gray(0.0f);
+    light_sample l;
+    *toward = p->d;
+    if (!s->lights[light].media_interaction ||
+        !light_reach(s, light, x, &p->random, &l))
+        return rgb_gray(0.0f);
+    *toward = l.wi;
+    if (!s->lights[light].shadows)
+        return l.color;
+    container_set set = p->inside;
+    p->count->shadow_rays++;
+    return rgb_mul(l.color, shadow_line(s, &set, x, l.shadow_wi,
+                                        l.shadow_distance,
+                                        line_jitter_draw(s, &p->random)));
+}
+
+/* What a medium of scattering sigma scatters to the eye of the cells' light
+ * straight from lights at distance t. */
+HD rgb single_cells(const flat_scene *s, const path_state *p, float t)
+{
+    vec3 x = vec3_mad(p->o, t, p->d);
+    rgb sum = rgb_gray(0.0f), lit = sum;
+    int read = RADIANCE_ANYWHERE;
     for (int i = -1; i < container_count(&p->inside); i++) {
         int32_t interior = container_interior(s, &p->inside, i);
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
@@ -260,52 +313,46 @@ HD rgb single_sigma(const flat_scene *s, const path_state *p, vec3 x)
             const flat_medium *m = &s->media[
                 s->interior_media[s->interiors[interior].first + k]];
             field_point at = field_point_make(s, m->lead, x);
-            sum = rgb_add(sum, rgb_mul(m->sigma_s, medium_density(s, m, &at)));
+            rgb sigma = rgb_mul(m->sigma_s, medium_density(s, m, &at));
+            if (rgb_is_black(sigma))
+                continue;
+            if (read != m->kind)
+                lit = radiance_at(s, x, m->kind).lit;
+            read = m->kind;
+            sum = rgb_add(sum, rgb_mul(sigma, lit));
         }
     }
     return sum;
 }
 
-/* What media of the field's phase function scatter along p->d, per scattering
- * coefficient, of all lights' light at x. */
-HD_APART rgb single_lights(const flat_scene *s, path_state *p, vec3 x)
+/* What the cells are wrong by. */
+HD_APART rgb single_error(const flat_scene *s, path_state *p, float t)
 {
-    rgb sum = rgb_gray(0.0f);
-    float scale = phase_pov_scale(s->field.phase) * light_medium_factor(s);
+    vec3 x = vec3_mad(p->o, t, p->d), wi;
+    float sigma_s;
+    rgb sum = rgb_scale(single_cells(s, p, t), -1.0f);
+    p->count->lookups++;
     for (int i = 0; i < (int)s->lights_count; i++) {
-        light_sample l;
-        if (!s->lights[i].media_interaction ||
-            !light_reach(s, i, x, &p->random, &l))
-            continue;
-        rgb in = rgb_scale(l.color, scale * phase_eval_between(
-                               s->field.phase, s->field.g, p->d, l.wi));
-        if (s->lights[i].shadows) {
-            container_set set = p->inside;
-            p->count->shadow_rays++;
-            in = rgb_mul(in, shadow_line(s, &set, x, l.shadow_wi,
-                                         l.shadow_distance,
-                                         line_jitter_draw(s, &p->random)));
-        }
-        sum = rgb_add(sum, in);
+        rgb in = single_arrives(s, p, i, x, &wi);
+        if (!rgb_is_black(in))
+            sum = rgb_add(sum, rgb_mul(in, path_scattered(s, p, t, wi,
+                                                          &sigma_s)));
     }
     return sum;
 }
 
-/* What the cells are wrong by, at the share `u` of what is scattered. */
+/* Adds it, at the share `u` of what is scattered. */
 HD void single_rest(const flat_scene *s, path_state *p,
                     const single_profile *f, float u)
 {
     float density, all = f->sum[f->count];
     float t = single_place(f, u * all, &density);
-    vec3 x = vec3_mad(p->o, t, p->d);
-    rgb sigma = single_sigma(s, p, x);
-    p->count->lookups++;
-    if (!(density > 0.0f) || rgb_is_black(sigma))
+    if (!(density > 0.0f))
         return;
-    rgb rest = rgb_sub(single_lights(s, p, x), radiance_at(s, x, true).lit);
-    rgb value = rgb_scale(rgb_mul(rest, sigma), all / density);
-    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
-        p->after.t, t, &p->random, p->count));
+    rgb value = rgb_scale(single_error(s, p, t), all / density);
+    if (rgb_is_black(value))
+        return;
+    value = rgb_mul(value, single_passes(s, p, f, t));
     p->count->collisions++;
     path_add(p, rgb_mul(p->beta, value));
 }

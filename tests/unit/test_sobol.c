@@ -122,6 +122,20 @@ static void test_lines(void **state)
     }
 }
 
+/* Samples that see one field are of one half. */
+static void test_shares(void **state)
+{
+    (void)state;
+    for (uint32_t share = 1; share <= 8; share *= 2) {
+        uint32_t half[2] = {0, 0};
+        for (uint32_t n = 0; n < 200; n++) {
+            for (uint32_t k = 0; k < 2; k++)
+                assert_int_equal(pixel_shared(n, share, k), half[k]);
+            half[pixel_half(n / share)]++;
+        }
+    }
+}
+
 /* Each half of the first 2^k points has one in each interval of 2 / 2^k of one
  * coordinate, and in the other one to within a factor of two. */
 static void test_halves(void **state)
@@ -149,6 +163,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals), cmocka_unit_test(test_rectangles),
         cmocka_unit_test(test_seeds),     cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_halves),    cmocka_unit_test(test_pairs)};
+        cmocka_unit_test(test_halves),    cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_shares)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
