@@ -41,12 +41,14 @@ HD bool pixel_has_line(uint32_t i, bool all)
 }
 
 /* The half that sample, or line, number n is counted in. Of each two that
- * follow one another one is; and as of the numbers' digits all but the second
- * tell, the points of each half (sobol.h) fill the pixel evenly by themselves,
- * to within a factor of two in one dimension. */
+ * follow one another one is; and as the second, fifth, eighth ... of the
+ * number's digits do not tell, each rectangle of a pixel (sobol.h) that has
+ * four of the first 2^k points has two of each half. So an edge parts the
+ * halves less and less; by most other digits they lie in a checkerboard of a
+ * few squares, however many points there are, and part as those do. */
 HD uint32_t pixel_half(uint32_t n)
 {
-    n &= ~2u;
+    n &= 0x6db6db6du;
     n ^= n >> 16;
     n ^= n >> 8;
     n ^= n >> 4;

@@ -136,24 +136,25 @@ static void test_shares(void **state)
     }
 }
 
-/* Each half of the first 2^k points has one in each interval of 2 / 2^k of one
- * coordinate, and in the other one to within a factor of two. */
+/* Each rectangle of a pixel, wide or high, that has four of the first 2^k
+ * points has two of each half. */
 static void test_halves(void **state)
 {
     (void)state;
-    for (int k = 3; k <= MOST; k++)
-        for (int d = 0; d < 2; d++) {
-            int level = k - 1 - ((d == 1) == (k % 2 == 1));
-            int each = 1 << (k - 1 - level);
+    for (int k = 2; k <= MOST; k++)
+        for (int wide = 0; wide <= k - 2; wide++) {
+            int high = k - 2 - wide;
             unsigned char taken[2][1 << MOST] = {{0}};
             for (uint32_t n = 0; n < 1u << k; n++) {
                 uint32_t x[SOBOL_DIMENSIONS];
                 point(n, k, x);
-                taken[pixel_half(n)][x[d] >> (32 - level)]++;
+                uint64_t column = (uint64_t)x[0] << wide >> 32;
+                uint64_t row = (uint64_t)x[1] << high >> 32;
+                taken[pixel_half(n)][row << wide | column]++;
             }
-            for (int i = 0; i < 1 << level; i++) {
-                assert_int_equal(taken[0][i], each);
-                assert_int_equal(taken[1][i], each);
+            for (int i = 0; i < 1 << (k - 2); i++) {
+                assert_int_equal(taken[0][i], 2);
+                assert_int_equal(taken[1][i], 2);
             }
         }
 }
