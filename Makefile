@@ -127,6 +127,10 @@ $(PARSER) $(UNITS:=.o): | $(B)/parser/grammar.h
 $(B)/%.o: %.cc
 	$(call run,c++,$(CPP) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<)
 
+# The photons of any scene at all: ptxas works on them for longer than a quarter
+# of an hour, unless it leaves them as they are.
+$(B)/core/cuda/photons_all.o: CU += -Xptxas -O0
+
 $(B)/%.o: %.cu
 	$(call run,nvcc,$(CU) $(CPPFLAGS) -MMD -MP -c -o $@ $<)
 
