@@ -81,7 +81,7 @@ done
 [ $stops -gt 0 ] || complain 'it was never stopped'
 
 new_case 'and not from what is kept of another'
-"$BRUME" s.pov +W60 +H45 --spp 4000 +Opart.exr >printed 2>said &
+"$BRUME" s.pov +W60 +H45 --spp 60000 +Opart.exr >printed 2>said &
 pid=$!
 wait_until_ready $pid
 sleep 1
