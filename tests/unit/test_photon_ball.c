@@ -1,6 +1,6 @@
 /* Gathering by balls: pictures against closed forms and the path tracer's, in
  * media whose density changes within a ball. */
-#include "tests/unit/truth.h"
+#include "tests/unit/heap_scene.h"
 #include "core/physics/ball_cell.h"
 #include "core/physics/glow.h"
 #include "core/prepare.h"
@@ -104,42 +104,10 @@ static void photon_ball__births_light_a_sphere(void **state)
 
 /* ---- density that changes within a ball --------------------------------- */
 
-/* A field of a few voxels, exp(-steep r^2) within 7 voxels of its middle. */
+/* A field of a few voxels. */
 static int add_heap(brume_scene *s, double steep)
 {
-    enum { VOXELS = 16 };
-    const int32_t origin[3] = {0, 0, 0}, size[3] = {2, 2, 2};
-    struct grid *grid = grid_new(origin, size, 0.0f, truth_error());
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            grid->to_world[i][j] = i == j   ? 2.0 / VOXELS
-                                   : j == 3 ? -1.0 + 1.0 / VOXELS
-                                            : 0.0;
-    for (int i = 0; i < VOXELS * VOXELS * VOXELS; i++) {
-        int x = i % VOXELS, y = i / VOXELS % VOXELS, z = i / VOXELS / VOXELS;
-        double p[3] = {x - 7.5, y - 7.5, z - 7.5};
-        double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-        float *v = grid_brick(grid, x >> 3, y >> 3, z >> 3, truth_error());
-        v[((z & 7) * 8 + (y & 7)) * 8 + (x & 7)] =
-            (float)(r < 7.0 ? exp(-steep * r * r) : 0.0);
-    }
-    grid_finish(grid);
-    struct brume_field f = BRUME_FIELD_INIT;
-    f.kind = BRUME_FIELD_GRID;
-    f.grid = brume_add_grid(s, grid, truth_error());
-    grid_free(grid);
-    return brume_add_field(s, &f, truth_error());
-}
-
-static void add_sun(brume_scene *s)
-{
-    struct brume_light l = BRUME_LIGHT_INIT;
-    l.location[0] = -100.0;
-    l.location[1] = 40.0;
-    l.location[2] = -30.0;
-    l.parallel = true;
-    l.color[0] = l.color[1] = l.color[2] = 1.0;
-    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    return heap_add(s, 16, steep, 7.0);
 }
 
 /* A cloud of a few voxels, dense in its middle, lit from its left. */
@@ -151,7 +119,7 @@ static brume_scene *small_cloud(void)
     m.density[0] = add_heap(s, 0.1);
     m.densities = 1;
     truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    add_sun(s);
+    heap_sun(s);
     return s;
 }
 
@@ -217,7 +185,7 @@ static brume_scene *hazy_ball(void)
     white.diffuse = 1.0;
     b.material = brume_add_material(s, &white, truth_error());
     assert_true(brume_add_shape(s, &b, truth_error()) >= 0);
-    add_sun(s);
+    heap_sun(s);
     return s;
 }
 

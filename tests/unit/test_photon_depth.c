@@ -1,6 +1,6 @@
 /* Fields whose cells are the larger the thinner the media in them are, beside
  * those with cells of one size. */
-#include "tests/unit/truth.h"
+#include "tests/unit/heap_scene.h"
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
@@ -14,33 +14,6 @@ enum { VOXELS = 64, SIDE = 16, PIXELS = SIDE * SIDE };
 #define SIGMA 16.0
 #define SPACING 0.03125
 
-/* exp(-r^2 / 8^2) around the middle, 32 voxels a unit: from thick to thin. */
-static int add_heap(brume_scene *s)
-{
-    const int32_t origin[3] = {0, 0, 0}, size[3] = {8, 8, 8};
-    struct grid *grid = grid_new(origin, size, 0.0f, truth_error());
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            grid->to_world[i][j] = i == j   ? 2.0 / VOXELS
-                                   : j == 3 ? -1.0 + 1.0 / VOXELS
-                                            : 0.0;
-    for (int i = 0; i < VOXELS * VOXELS * VOXELS; i++) {
-        int x = i % VOXELS, y = i / VOXELS % VOXELS, z = i / VOXELS / VOXELS;
-        double p[3] = {x - 31.5, y - 31.5, z - 31.5};
-        double r = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-        float *v = grid_brick(grid, x >> 3, y >> 3, z >> 3, truth_error());
-        v[((z & 7) * 8 + (y & 7)) * 8 + (x & 7)] = (float)(r < 900.0
-                                                               ? exp(-r / 64.0)
-                                                               : 0.0);
-    }
-    grid_finish(grid);
-    struct brume_field f = BRUME_FIELD_INIT;
-    f.kind = BRUME_FIELD_GRID;
-    f.grid = brume_add_grid(s, grid, truth_error());
-    grid_free(grid);
-    return brume_add_field(s, &f, truth_error());
-}
-
 /* Lit from its left; white walls would look everywhere. */
 static brume_scene *heap(void)
 {
@@ -48,16 +21,11 @@ static brume_scene *heap(void)
     g.media_multiple = g.surfaces_indirect = g.environment = true;
     brume_scene *s = truth_scene(&g, 5.0, 0.45);
     struct brume_medium m = truth_medium(0.01 * SIGMA, 0.99 * SIGMA, 0.0);
-    m.density[0] = add_heap(s);
+    /* 32 voxels a unit: from thick to thin. */
+    m.density[0] = heap_add(s, VOXELS, 1.0 / 64.0, 30.0);
     m.densities = 1;
     truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    struct brume_light l = BRUME_LIGHT_INIT;
-    l.location[0] = -100.0;
-    l.location[1] = 40.0;
-    l.location[2] = -30.0;
-    l.parallel = true;
-    l.color[0] = l.color[1] = l.color[2] = 1.0;
-    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    heap_sun(s);
     return s;
 }
 
