@@ -70,6 +70,13 @@ static inline pixel_job backend_pixels(const struct backend_frame *frame)
     return job;
 }
 
+/* Whether the mean over many fields has their blur, which is taken out. */
+static inline bool backend_sharpens(const struct backend_frame *frame)
+{
+    const radiance_lattice *f = &frame->flat->view.field;
+    return frame->stages->passes && !f->ball && !f->refined;
+}
+
 extern const struct backend backend_cpu;
 #ifdef BRUME_CUDA
 extern const struct backend backend_cuda;

@@ -1,7 +1,6 @@
 /* The gather stage: from sums to the field, and light straight from the lights
  * into it, a brick at a time. */
 #include "core/cpu/cpu.h"
-#include <stdlib.h>
 #include <string.h>
 #include "core/physics/lit_cell.h"
 #include "core/radiance.h"
@@ -30,33 +29,27 @@ static void light_brick(void *context, size_t index, int thread)
                      s->frame.flat->radiance, &count);
 }
 
-struct sharpen {
-    struct flat *flat;
-    const float *means;
-};
-
 static void sharpen_brick(void *context, size_t index, int thread)
 {
     (void)thread;
-    const struct sharpen *job = context;
-    const flat_scene *v = &job->flat->view;
+    const struct cpu_state *s = context;
+    const flat_scene *v = &s->frame.flat->view;
     for (int i = 0; i < 512 && v->radiance_slots[index] >= 0; i++)
-        radiance_sharpen(v, job->means, index, i, job->flat->radiance);
+        radiance_sharpen(v, s->means, index, i, s->frame.flat->radiance);
 }
 
 /* Of many fields, whose noise the mean over them averages. */
 static bool sharpen(struct cpu_state *s, struct brume_error *err)
 {
     struct flat *flat = s->frame.flat;
-    size_t bytes = flat->radiance_count * sizeof *flat->radiance;
-    float *means = memory_new(flat->radiance_count, sizeof *means, err);
-    if (!means)
+    size_t count = flat->radiance_count;
+    if (!s->means)
+        s->means = memory_new(count, sizeof *s->means, err);
+    if (!s->means)
         return false;
-    memcpy(means, flat->radiance, bytes);
-    struct sharpen job = {flat, means};
+    memcpy(s->means, flat->radiance, count * sizeof *s->means);
     parallel_for(s->threads, (size_t)flat->radiance_slots_count, sharpen_brick,
-                 &job, &s->stop);
-    free(means);
+                 s, &s->stop);
     return true;
 }
 
@@ -69,7 +62,7 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
     atomic_store(&s->stop, false);
     if (unit > 0.0)
         radiance_resolve(flat, s->sum, unit);
-    if (s->frame.stages->passes && !f->ball && !f->refined && !sharpen(s, err))
+    if (backend_sharpens(&s->frame) && !sharpen(s, err))
         return false;
     bool good = !(unit > 0.0 && f->ball) ||
                 parallel_for(s->threads, bricks, ball_brick, s, &s->stop);

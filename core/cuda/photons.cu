@@ -198,7 +198,7 @@ bool cuda_gather(void *state, double unit, brume_error *err)
     if (unit > 0.0)
         resolve<<<static_cast<unsigned>(blocks), block_size>>>(
             s->sum, s->cells, count, radiance_scale(f, unit));
-    if (s->frame.stages->passes && !f->ball && !f->refined)
+    if (backend_sharpens(&s->frame))
         sharpen_cells(s, count);
     if (unit > 0.0 && f->ball)
         s->photons->balls(&job);
