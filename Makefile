@@ -80,7 +80,9 @@ UNITS    := $(call programs,tests/unit)
 TOOLS    := $(call programs,tests/tools) $(call programs,tests/bench)
 FUZZERS  := $(call programs,tests/fuzz)
 ifneq ($(CUDA_SRC),)
-CORE     += $(call objects,$(CUDA_SRC))
+CUDA_ANY := $(B)/core/cuda/photons_all.o $(B)/core/cuda/sample_all.o
+CUDA_LINKED := $(B)/core/cuda/linked.o
+CORE     += $(call objects,$(CUDA_SRC)) $(CUDA_LINKED)
 CPPFLAGS += -DBRUME_CUDA
 OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
     -lstdc++ -ldl -lrt
@@ -127,9 +129,12 @@ $(PARSER) $(UNITS:=.o): | $(B)/parser/grammar.h
 $(B)/%.o: %.cc
 	$(call run,c++,$(CPP) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<)
 
-# The photons of any scene at all: ptxas works on them for longer than a quarter
-# of an hour, unless it leaves them as they are.
-$(B)/core/cuda/photons_all.o: CU += -Xptxas -O0
+# The kernels for any scene at all call functions that nvlink joins to them. As
+# one piece each kernel has copies of its own, and ptxas works on these for
+# longer than a quarter of an hour. 128 registers are what the kernels have.
+$(CUDA_ANY): CU += -rdc=true -maxrregcount=128
+$(CUDA_LINKED): $(CUDA_ANY)
+	$(call run,nvlink,$(CU) -maxrregcount=128 -dlink -o $@ $^)
 
 $(B)/%.o: %.cu
 	$(call run,nvcc,$(CU) $(CPPFLAGS) -MMD -MP -c -o $@ $<)
