@@ -86,6 +86,8 @@ CORE     += $(call objects,$(CUDA_SRC)) $(CUDA_LINKED)
 CPPFLAGS += -DBRUME_CUDA
 OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
     -lstdc++ -ldl -lrt
+TOOLS    += $(B)/tests/gpu/trees
+SHOOT    := $(call objects,$(wildcard tests/gpu/*.cu))
 endif
 
 .DELETE_ON_ERROR:
@@ -146,6 +148,9 @@ $(UNITS) $(TOOLS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
 unit: $(UNITS)
 tools: $(TOOLS)
 
+# What a test asks of a GPU.
+$(B)/tests/gpu/trees: $(SHOOT)
+
 # Programs that give inputs of their own making to a part of the program;
 # OpenVDB asks for the sanitizers of C++.
 $(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
@@ -153,7 +158,7 @@ $(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
 	    $(call rpath,$$ORIGIN/../..))
 fuzzers: $(FUZZERS)
 
--include $(patsubst %.o,%.d,$(LIB) $(IN_MODULE) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
+-include $(patsubst %.o,%.d,$(SHOOT) $(LIB) $(IN_MODULE) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
     $(FUZZERS:=.d)
 
 # ---- the two commands

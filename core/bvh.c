@@ -1,7 +1,7 @@
 #include "core/bvh.h"
 #include <math.h>
 #include <string.h>
-#include "core/physics/bvh.h"
+#include "core/physics/lbvh.h"
 
 enum { BINS = 16, LEAF = 4 };
 
@@ -198,24 +198,13 @@ static bool make_node(struct flat *f, struct bvh_item *items,
 
 void bvh_widen(struct bvh_item *item)
 {
-    for (int k = 0; k < 3; k++) {
-        float size = fmaxf(fabsf(item->lo[k]), fabsf(item->hi[k]));
-        float slack = 2e-6f * size + 2e-7f;
-        item->lo[k] -= slack;
-        item->hi[k] += slack;
-    }
+    lbvh_widen(item->lo, item->hi);
 }
 
 void bvh_triangle(const struct flat *flat, uint64_t triangle,
                   struct bvh_item *out)
 {
-    const vec3 *p = flat->triangles[triangle].p;
-    vec3 lo = vec3_min(p[0], vec3_min(p[1], p[2]));
-    vec3 hi = vec3_max(p[0], vec3_max(p[1], p[2]));
-    for (int k = 0; k < 3; k++) {
-        out->lo[k] = vec3_get(lo, k);
-        out->hi[k] = vec3_get(hi, k);
-    }
+    lbvh_triangle_box(flat->triangles[triangle].p, out->lo, out->hi);
 }
 
 static bool build(struct flat *flat, struct bvh_item *items, size_t count,

@@ -1,15 +1,9 @@
 #include "core/kdtree.h"
-#include "core/physics/kdtree.h"
+#include "core/physics/kd_step.h"
 #include "lib/memory.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { BINS = 48, MAX_DEPTH = 60 };
-
-/* Of the cost of a node, in tests of an item; what an empty child saves. */
-#define VISIT 3.0f
-#define EMPTY 0.8f
 
 /* References to items, each with the part of its bounds in its node. Those of
  * the nodes still to be made lie one behind the other, the next at the end. */
@@ -19,100 +13,57 @@ struct references {
 };
 
 struct task {
-    float lo[3], hi[3];
-    size_t count; /* the last so many references             */
+    kd_task part; /* its items: the last so many references  */
     uint32_t node;
-    int depth, worse; /* splits above that cost more than a leaf */
 };
 
 struct build {
     struct flat *flat;
     struct brume_error *err;
     struct references refs, below; /* below: of the split at hand */
-    struct task task[MAX_DEPTH + 2];
+    struct task task[KD_MAX_DEPTH + 2];
     int tasks, deepest;
-};
-
-struct split {
-    int axis;
-    float at, cost;
 };
 
 /* ---- where to split ----------------------------------------------------- */
 
-static float half_area(const float lo[3], const float hi[3])
-{
-    float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
-    return x * y + y * z + z * x;
-}
-
-/* The plane below bin i; the same number wherever it is asked for. */
-static float plane_of(const struct task *t, int axis, int i)
-{
-    float extent = t->hi[axis] - t->lo[axis];
-    return t->lo[axis] + extent * ((float)i / (float)BINS);
-}
-
-static int bin_of(const struct task *t, int axis, float x)
-{
-    float extent = t->hi[axis] - t->lo[axis];
-    int b = (int)((float)BINS * ((x - t->lo[axis]) / extent));
-    return b < 0 ? 0 : b >= BINS ? BINS - 1 : b;
-}
-
 /* Items that begin in each bin, and that end in it. */
-static void fill_bins(const struct task *t, const struct bvh_item *item,
-                      int axis, size_t begin[BINS], size_t end[BINS])
+static void fill_bins(const kd_task *t, const struct bvh_item *item, int axis,
+                      size_t begin[KD_BINS], size_t end[KD_BINS])
 {
-    memset(begin, 0, BINS * sizeof *begin);
-    memset(end, 0, BINS * sizeof *end);
+    memset(begin, 0, KD_BINS * sizeof *begin);
+    memset(end, 0, KD_BINS * sizeof *end);
     for (size_t i = 0; i < t->count; i++) {
-        begin[bin_of(t, axis, item[i].lo[axis])]++;
-        end[bin_of(t, axis, item[i].hi[axis])]++;
+        begin[kd_bin(t, axis, item[i].lo[axis])]++;
+        end[kd_bin(t, axis, item[i].hi[axis])]++;
     }
 }
 
-static void try_axis(const struct task *t, const struct bvh_item *item,
-                     int axis, struct split *best)
+static void try_axis(const kd_task *t, const struct bvh_item *item, int axis,
+                     kd_split *best)
 {
-    size_t begin[BINS], end[BINS], left = 0, right = t->count;
-    float lo[3], hi[3];
+    size_t begin[KD_BINS], end[KD_BINS], left = 0, right = t->count;
     fill_bins(t, item, axis, begin, end);
-    memcpy(lo, t->lo, sizeof lo);
-    memcpy(hi, t->hi, sizeof hi);
-    for (int i = 1; i < BINS; i++) {
+    for (int i = 1; i < KD_BINS; i++) {
         left += begin[i - 1];
         right -= end[i - 1];
-        float at = plane_of(t, axis, i);
-        if (!(at > t->lo[axis] && at < t->hi[axis]))
-            continue;
-        hi[axis] = lo[axis] = at;
-        float cost = half_area(t->lo, hi) * (float)left +
-                     half_area(lo, t->hi) * (float)right;
-        if (left == 0 || right == 0)
-            cost *= EMPTY;
+        float cost = kd_cost(t, axis, i, left, right);
         if (cost < best->cost)
-            *best = (struct split){axis, at, cost};
+            *best = (kd_split){axis, kd_plane(t, axis, i), cost};
     }
 }
 
 /* Of an axis -1: make it a leaf. */
-static struct split find_split(const struct build *b, struct task *t,
-                               const struct bvh_item *item)
+static kd_split find_split(const struct build *b, kd_task *t,
+                           const struct bvh_item *item)
 {
-    struct split best = {-1, 0.0f, INFINITY};
-    float area = half_area(t->lo, t->hi);
-    float leaf = area * (float)t->count;
-    if (t->count <= 1 || t->depth >= b->deepest)
+    kd_split best = {-1, 0.0f, INFINITY};
+    if (!kd_may_split(t, b->deepest))
         return best;
     for (int axis = 0; axis < 3; axis++)
         if (t->hi[axis] > t->lo[axis])
             try_axis(t, item, axis, &best);
-    best.cost += VISIT * area;
-    t->worse += best.cost > leaf;
-    if (best.cost > 4.0f * leaf || t->worse > 2 ||
-        (best.cost > leaf && t->count < 8))
-        best.axis = -1;
+    kd_decide(t, &best);
     return best;
 }
 
@@ -128,7 +79,7 @@ static bool reserve(struct build *b, struct references *r, size_t count)
 }
 
 /* A copy with its bounds cut at the plane. */
-static struct bvh_item cut(const struct bvh_item *item, const struct split *s,
+static struct bvh_item cut(const struct bvh_item *item, const kd_split *s,
                            bool below)
 {
     struct bvh_item part = *item;
@@ -141,8 +92,8 @@ static struct bvh_item cut(const struct bvh_item *item, const struct split *s,
 
 /* The task's references give way to those above the plane, then those below.
  * What touches it is in both. */
-static bool part_references(struct build *b, const struct task *t,
-                            const struct split *s, size_t *below, size_t *above)
+static bool part_references(struct build *b, const kd_task *t,
+                            const kd_split *s, uint64_t *below, uint64_t *above)
 {
     struct references *refs = &b->refs;
     size_t first = refs->count - t->count, kept = first;
@@ -170,46 +121,45 @@ static bool part_references(struct build *b, const struct task *t,
 static bool make_leaf(struct build *b, const struct task *t)
 {
     struct flat *f = b->flat;
-    size_t first = f->kd_items_count;
-    if (first + t->count > UINT32_MAX)
+    size_t first = f->kd_items_count, count = t->part.count;
+    if (first + count > UINT32_MAX)
         return brume_fail(b->err, BRUME_ERR_LIMIT,
                           "the kd-tree has more than 2^32 references");
     f->kd[t->node].first = (uint32_t)first;
-    f->kd[t->node].kind = KD_LEAF + (uint32_t)t->count;
-    uint32_t *name = FLAT_EXTEND(f, kd_items, t->count, b->err);
-    if (!name && t->count > 0)
+    f->kd[t->node].kind = KD_LEAF + (uint32_t)count;
+    uint32_t *name = FLAT_EXTEND(f, kd_items, count, b->err);
+    if (!name && count > 0)
         return false;
-    b->refs.count -= t->count;
-    for (size_t i = 0; i < t->count; i++)
+    b->refs.count -= count;
+    for (size_t i = 0; i < count; i++)
         name[i] = b->refs.item[b->refs.count + i].name;
     return true;
 }
 
 static bool make_node(struct build *b, struct task t)
 {
-    struct split s = find_split(b, &t, b->refs.item + b->refs.count - t.count);
+    kd_task *part = &t.part;
+    kd_split s = find_split(b, part,
+                            b->refs.item + b->refs.count - part->count);
     if (s.axis < 0)
         return make_leaf(b, &t);
     struct flat *f = b->flat;
     uint32_t child = (uint32_t)f->kd_count;
-    struct task below = t, above = t;
+    struct task below = {.node = child}, above = {.node = child + 1};
+    kd_cut(part, &s, &below.part, &above.part);
     if (!FLAT_EXTEND(f, kd, 2, b->err) ||
-        !part_references(b, &t, &s, &below.count, &above.count))
+        !part_references(b, part, &s, &below.part.count, &above.part.count))
         return false;
     f->kd[t.node].split = s.at;
     f->kd[t.node].first = child;
     f->kd[t.node].kind = (uint32_t)s.axis;
-    below.hi[s.axis] = above.lo[s.axis] = s.at;
-    below.depth = above.depth = t.depth + 1;
-    below.node = child;
-    above.node = child + 1;
     b->task[b->tasks++] = above;
     b->task[b->tasks++] = below;
     return true;
 }
 
 static bool take_items(struct build *b, const struct bvh_item *items,
-                       size_t count, struct task *root)
+                       size_t count, kd_task *root)
 {
     if (!reserve(b, &b->refs, count))
         return false;
@@ -230,19 +180,24 @@ static bool take_items(struct build *b, const struct bvh_item *items,
     return true;
 }
 
+int kd_deepest(size_t count)
+{
+    int deepest = (int)(8.0 + 1.3 * log2((double)count));
+    return deepest < KD_MAX_DEPTH ? deepest : KD_MAX_DEPTH;
+}
+
 bool kd_build(struct flat *flat, const struct bvh_item *items, size_t count,
               int stack, struct brume_error *err)
 {
     struct build b = {.flat = flat, .err = err};
-    struct task root = {.count = 0};
+    struct task root = {.node = 0};
     if (count == 0)
         return true;
-    bool good = take_items(&b, items, count, &root) &&
+    bool good = take_items(&b, items, count, &root.part) &&
                 FLAT_EXTEND(flat, kd, 1, err);
-    b.deepest = (int)(8.0 + 1.3 * log2((double)count));
-    b.deepest = b.deepest < MAX_DEPTH ? b.deepest : MAX_DEPTH;
-    memcpy(flat->view.kd_box.lo, root.lo, sizeof root.lo);
-    memcpy(flat->view.kd_box.hi, root.hi, sizeof root.hi);
+    b.deepest = kd_deepest(count);
+    memcpy(flat->view.kd_box.lo, root.part.lo, sizeof root.part.lo);
+    memcpy(flat->view.kd_box.hi, root.part.hi, sizeof root.part.hi);
     flat->view.kd_stack = stack;
     b.task[b.tasks++] = root;
     while (good && b.tasks > 0) {

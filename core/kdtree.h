@@ -4,6 +4,11 @@
 #define CORE_KDTREE_H
 #include "core/bvh.h"
 
+enum { KD_MAX_DEPTH = 60 };
+
+/* Levels of the tree over so many items, at most. */
+int kd_deepest(size_t count);
+
 /* Makes flat->kd, kd_items and kd_box of the items, which an earlier tree must
  * not be in; `stack` is the ring's size, 1 to KD_MAX_STACK. The tree is the
  * same for the same items in the same order. An item is in all leaves that its

@@ -8,16 +8,38 @@
 
 enum { KD_MAX_STACK = 32 };
 
+/* On a GPU, rings of up to so many entries lie in the memory that a block of at
+ * most KD_THREADS shares; longer ones, and all of a host, in a thread's own. */
+#ifndef KD_SHARED
+#define KD_SHARED 0
+#endif
+
 typedef struct {
-    uint32_t node[KD_MAX_STACK];
-    real leave[KD_MAX_STACK];   /* where the ray leaves the node           */
-    int32_t top, count;         /* place of the next entry; entries        */
+    uint32_t node;
+    real leave;             /* where the ray leaves the node               */
+} kd_entry;
+
+typedef struct {
+    kd_entry own[KD_MAX_STACK];
+    int32_t top, count;     /* place of the next entry; entries            */
 } kd_ring;
+
+HD kd_entry *kd_place(kd_ring *ring, int32_t size, int32_t i)
+{
+#if defined(__CUDACC__) && KD_SHARED > 0
+    __shared__ kd_entry shared[KD_SHARED][KD_THREADS];
+    if (size <= KD_SHARED)
+        return &shared[i][threadIdx.y * blockDim.x + threadIdx.x];
+#endif
+    (void)size;
+    return &ring->own[i];
+}
 
 HD void kd_push(kd_ring *ring, int32_t size, uint32_t node, real leave)
 {
-    ring->node[ring->top] = node;
-    ring->leave[ring->top] = leave;
+    kd_entry *e = kd_place(ring, size, ring->top);
+    e->node = node;
+    e->leave = leave;
     ring->top = ring->top + 1 < size ? ring->top + 1 : 0;
     ring->count += ring->count < size;
 }
@@ -26,8 +48,9 @@ HD uint32_t kd_pop(kd_ring *ring, int32_t size, real *leave)
 {
     ring->top = ring->top > 0 ? ring->top - 1 : size - 1;
     ring->count--;
-    *leave = ring->leave[ring->top];
-    return ring->node[ring->top];
+    const kd_entry *e = kd_place(ring, size, ring->top);
+    *leave = e->leave;
+    return e->node;
 }
 
 /* Down to the leaf where the ray is at `enter`; *leave becomes the distance
