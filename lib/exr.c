@@ -8,7 +8,10 @@
 #include "lib/memory.h"
 #include "lib/output.h"
 
-enum { BLOCK_LINES = 16 }; /* of ZIP compression                      */
+/* Lines of a block of ZIP compression. The last of its levels that looks no
+ * further for better matches takes two thirds of the time of the default one,
+ * for 1 % more bytes. */
+enum { BLOCK_LINES = 16, ZIP_LEVEL = 3 };
 
 /* A header can promise any size; beyond this no file of ours or of a plate
  * goes, and the planes would take over a GiB each. */
@@ -153,6 +156,7 @@ static bool write_file(struct session *s, const struct image *image,
         return false;
     exr_context_initializer_t init = initializer(s);
     init.write_fn = write_bytes;
+    init.zip_level = ZIP_LEVEL;
     exr_context_t context = NULL;
     bool ok = check(s, exr_start_write(&context, s->path,
                                        EXR_WRITE_FILE_DIRECTLY, &init)) &&
