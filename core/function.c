@@ -172,12 +172,32 @@ static bool settle(struct brume_function *f, int height,
     return function_emit(f, MACHINE_MOVE, home(f, height), at, 0, 0, err);
 }
 
+/* How many operands from a height on stand side by side in registers, not at
+ * home, as the parameters of a point do. */
+static int beside(const struct brume_function *f, int height)
+{
+    int32_t at = f->stack[height];
+    int count = 1;
+    if (at < 0 || at == home(f, height))
+        return count;
+    while (height + count < f->height && f->stack[height + count] == at + count)
+        count++;
+    return count;
+}
+
 static bool settle_top(struct brume_function *f, int count,
                        struct brume_error *err)
 {
-    for (int h = f->height - count; h < f->height; h++)
-        if (!settle(f, h, err))
+    for (int h = f->height - count; h < f->height;) {
+        int32_t at = f->stack[h];
+        int together = beside(f, h);
+        if (together == 1 ? !settle(f, h, err)
+                          : !function_emit(f, MACHINE_COPY, home(f, h), at, 0,
+                                           together, err))
             return false;
+        for (int i = 0; i < together; i++, h++)
+            f->stack[h] = home(f, h);
+    }
     return true;
 }
 
