@@ -121,10 +121,19 @@ HD rgb hit_pass(const hit_color *c)
     return rgb_add(rgb_scale(c->color, c->filter), rgb_gray(c->transmit));
 }
 
+/* Of one colour, or a checker of two, and nothing passes either. */
+HD bool hit_is_opaque(const flat_material *m)
+{
+    return m->function < 0 && m->filter[0] == 0.0f && m->transmit[0] == 0.0f &&
+           m->filter[1] == 0.0f && m->transmit[1] == 0.0f;
+}
+
 HD rgb hit_transparency(const flat_scene *s, const bvh_ray *r,
                         const ray_hit *h)
 {
     const flat_material *m = &s->materials[s->shapes[h->shape].material];
+    if (hit_is_opaque(m))
+        return rgb_gray(0.0f);
     hit_color c = hit_pigment(s, m, hit_position(s, r, h));
     return hit_pass(&c);
 }

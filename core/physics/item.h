@@ -36,14 +36,16 @@ HD void item_hit_shape(const flat_scene *s, const bvh_ray *r, int32_t shape,
     int roots = leaf_roots(s, f, r, t, surface);
     bool out = leaf_inside_first(s, f, r, t, roots);
     for (int i = 0; i < roots; i++, out = !out) {
+        uint64_t key = ray_key((uint64_t)shape, i);
+        if (!hit_after(t[i], key, after) || !hit_before(t[i], key, best))
+            continue;
         ray_hit h = hit_none(t[i]);
-        h.key = ray_key((uint64_t)shape, i);
+        h.key = key;
         h.shape = shape;
         h.root = i;
         h.surface = surface[i];
         h.seen = item_seen(f, surface[i]);
-        if (hit_after(t[i], h.key, after) && hit_before(t[i], h.key, best) &&
-            item_accept(s, r, out, &h))
+        if (item_accept(s, r, out, &h))
             *best = h;
     }
 }

@@ -324,10 +324,29 @@ HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_scale(rgb_mul(p->beta, value), weight));
 }
 
+/* Whether the media around the ray do nothing but emit. */
+HD bool path_passes_media(const flat_scene *s, const container_set *set)
+{
+    for (int i = -1; i < container_count(set); i++) {
+        int32_t interior = container_interior(s, set, i);
+        for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
+             k++) {
+            const flat_medium *m = &s->media[
+                s->interior_media[s->interiors[interior].first + k]];
+            if (!rgb_is_black(m->sigma_t) || !rgb_is_black(m->sigma_s))
+                return false;
+        }
+    }
+    return true;
+}
+
 HD int path_media(const flat_scene *s, path_state *p, float t1,
                   path_event *event)
 {
     media_walk w;
+    /* On the straight line from the eye emission is march.h's. */
+    if (p->straight && path_passes_media(s, &p->inside))
+        return PATH_THROUGH;
     walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
     p->count->overflow += w.overflow;
     if (w.count == 0)
