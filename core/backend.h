@@ -31,6 +31,9 @@ struct backend {
      * 0: it is as it was put. Adds what comes straight from lights where it is
      * to hold that. */
     bool (*gather)(void *state, double unit, struct brume_error *err);
+    /* Copies sums over blocks (half.h) of what was traced so far. */
+    bool (*halve)(void *state, double unit, float *blocks,
+                  struct brume_error *err);
     /* Copy the numbers of the field, flat->radiance_count of them, out of the
      * backend and into it; both NULL where it works on those of `flat`. */
     bool (*take)(void *state, float *cells, struct brume_error *err);

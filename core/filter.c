@@ -24,10 +24,16 @@ static double noise_of(const radiance_lattice *f, double power)
            (f->eye >= 0 && f->fluence < 0 ? phase : 1.0);
 }
 
+/* Bricks that are there. */
+static size_t brick_count(const struct filter_field *f)
+{
+    return f->count / (512 * (size_t)f->lattice.numbers);
+}
+
 /* Numbers that tell how far the blocks move. */
 static size_t drift_count(const struct filter_field *f)
 {
-    return f->count / (512 * (size_t)f->lattice.numbers) * DRIFT_BLOCKS * 3;
+    return brick_count(f) * DRIFT_BLOCKS * 3;
 }
 
 bool filter_keep(const struct flat *flat, double power,
@@ -47,7 +53,11 @@ bool filter_keep(const struct flat *flat, double power,
     out->drift = flat->drift
                      ? memory_new(drift_count(out), sizeof *out->drift, err)
                      : NULL;
-    if (!out->slots || !out->cells || (flat->drift && !out->drift)) {
+    out->power = flat->half
+                     ? memory_new(brick_count(out), sizeof *out->power, err)
+                     : NULL;
+    if (!out->slots || !out->cells || (flat->drift && !out->drift) ||
+        (flat->half && !out->power)) {
         filter_release(out);
         return false;
     }
@@ -55,6 +65,8 @@ bool filter_keep(const struct flat *flat, double power,
     memcpy(out->cells, flat->radiance, out->count * sizeof *out->cells);
     if (out->drift)
         memcpy(out->drift, flat->drift, drift_count(out) * sizeof *out->drift);
+    if (out->power)
+        filter_half_find(flat, out->power);
     return true;
 }
 
@@ -63,6 +75,8 @@ void filter_release(struct filter_field *f)
     free(f->slots);
     free(f->cells);
     free(f->drift);
+    free(f->power);
+    f->power = NULL;
     f->slots = NULL;
     f->cells = f->drift = NULL;
 }
@@ -70,7 +84,8 @@ void filter_release(struct filter_field *f)
 uint64_t filter_bytes(const struct filter_field *f)
 {
     return f->bricks * sizeof *f->slots + f->count * sizeof *f->cells +
-           (f->drift ? drift_count(f) * sizeof *f->drift : 0);
+           (f->drift ? drift_count(f) * sizeof *f->drift : 0) +
+           (f->power ? brick_count(f) * sizeof *f->power : 0);
 }
 
 /* ---- the mean ----------------------------------------------------------- */

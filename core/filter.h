@@ -4,7 +4,7 @@
  * of one are interpolated at the middles of the other's. */
 #ifndef CORE_FILTER_H
 #define CORE_FILTER_H
-#include "core/flat.h"
+#include "core/filter_half.h"
 
 /* What is kept of a frame. */
 struct filter_field {
@@ -14,6 +14,7 @@ struct filter_field {
     int32_t *slots;
     float *cells;               /* lattice.numbers each                    */
     float *drift;               /* as in struct flat, or NULL              */
+    struct filter_power *power; /* of each brick that is there, or NULL    */
     size_t bricks, count;       /* of slots, of numbers in cells           */
     double noise;               /* variance of a number over its mean, where
                                    all channels have the same              */

@@ -13,12 +13,13 @@
  * each block those that differ less are taken.
  *
  * Where noise hides what changes such weights are even, and blur it. How much
- * of the detail they lose as a whole shows all the same (filter_detail.h):
- * where that is more than 2 % of its energy they are changed until it is not,
- * the farthest becoming negative. */
+ * of the detail they lose as a whole shows all the same (filter_fall.h): where
+ * that is more than 2 % of its energy they are changed until it is not, most
+ * where there is most detail for its noise; the farthest become negative. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "core/filter_fall.h"
 #include "core/filter_judge.h"
 #include "lib/memory.h"
 #include "lib/thread.h"
@@ -46,9 +47,11 @@ struct adapt {
     struct filter_judge judge;
     size_t bricks;
     float noise[BRUME_MAX_TAPS];
-    float lost[2][BRUME_MAX_REACH + 1]; /* of detail: as they are, moved */
-    struct filter_weights *weights;     /* of each brick                 */
-    struct filter_desk *desk;           /* a thread's                    */
+    struct filter_kinds kinds;
+    struct filter_falls fall[2]; /* of detail: as they are, moved */
+    float slope[2][FILTER_KINDS];
+    struct filter_weights *weights; /* of each brick                 */
+    struct filter_desk *desk;       /* a thread's                    */
 };
 
 /* Of a brick's blocks, and whether these are taken where they were. */
@@ -365,7 +368,7 @@ static bool is_better_moved(const struct adapt *a, const struct filter_desk *d,
     find_moves(s, move);
     float level = pool(a, s, move, 0.0f, true);
     float slack = doubt(s, level, noise);
-    bool moves = 2.0f * a->lost[0][AT] >= a->lost[1][AT];
+    bool moves = 2.0f * a->fall[0].all[AT] >= a->fall[1].all[AT];
     return differ(a, &d->near[1][i], level, MOVED_PART) <
            differ(a, s, level, 1.0f) + (moves ? slack : -slack);
 }
@@ -405,13 +408,17 @@ static bool choose_blocks(const struct filter_weights *w, bool moved, int k,
     return any;
 }
 
-static void keep_detail(const struct adapt *a, struct filter_weights *w)
+static void keep_detail(const struct adapt *a, size_t slot,
+                        struct filter_weights *w)
 {
+    int kind = filter_kind(&a->kinds, &a->judge.common[0][slot]);
     for (int i = 0; i < FILTER_BLOCKS; i++) {
         float weight[BRUME_MAX_TAPS];
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
             weight[k] = w->weight[k][i];
-        filter_detail_keep(a->lost[w->moved[i]], weight);
+        int moved = w->moved[i];
+        filter_detail_keep(a->fall[moved].lost[kind], a->slope[moved][kind],
+                           weight);
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
             w->weight[k][i] = weight[k];
     }
@@ -433,7 +440,7 @@ static void mix_brick(void *context, size_t index, int thread)
     float *out = flat->radiance + (size_t)slot * size;
     float weight[FILTER_BLOCKS];
     filter_corner(f, index, corner);
-    keep_detail(a, w);
+    keep_detail(a, (size_t)slot, w);
     memset(out, 0, size * sizeof *out);
     for (int j = 0; j < 2; j++)
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
@@ -475,24 +482,96 @@ static void weigh_brick(void *context, size_t index, int thread)
 
 /* How fast the detail changes, as it is and moved, of frames that count by
  * their weights. */
-static void find_lost(struct adapt *a, const double weight[BRUME_MAX_TAPS])
+static void find_falls(struct adapt *a, const double weight[BRUME_MAX_TAPS])
 {
+    filter_fall_sort(a->judge.common[0], a->bricks, weight, &a->kinds);
     for (int j = 0; j < (a->judge.places ? 2 : 1); j++)
-        filter_detail_fit(a->judge.common[j], a->bricks, weight, a->lost[j]);
+        filter_fall_fit(a->judge.common[j], a->bricks, weight, &a->kinds,
+                        &a->fall[j]);
 }
 
-/* Squares of the mean weights of all blocks, so that frames of which hardly
- * any block is used count for nothing. */
+/* Sums over blocks of a kind, as they are or moved. */
+struct tally {
+    double weight[BRUME_MAX_TAPS], square, blocks;
+};
+
+static void add_brick(const struct filter_weights *w, struct tally moved[2])
+{
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        struct tally *t = &moved[w->moved[i]];
+        t->blocks += 1.0;
+        for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+            double x = (double)w->weight[k][i];
+            t->weight[k] += x;
+            t->square += x * x;
+        }
+    }
+}
+
+static void tally_weights(const struct adapt *a,
+                          struct tally tally[FILTER_KINDS][2])
+{
+    memset(tally, 0, FILTER_KINDS * sizeof *tally);
+    for (size_t b = 0; b < a->bricks; b++)
+        add_brick(&a->weights[b],
+                  tally[filter_kind(&a->kinds, &a->judge.common[0][b])]);
+}
+
+/* Frames whose mean weight is less than this part of the mean frame's show
+ * something else, as behind a cut. */
+#define ELSE 0.3
+
+/* Squares of the mean weights where detail is, so that frames of which few
+ * blocks are used count for little, and none of those that show something
+ * else. */
 static void square_weights(const struct adapt *a, double out[BRUME_MAX_TAPS])
 {
+    struct tally tally[FILTER_KINDS][2];
+    double all = 0.0;
+    tally_weights(a, tally);
+    for (int i = 0; i < FILTER_KINDS; i++)
+        all += a->fall[0].energy[i];
     for (int k = 0; k < BRUME_MAX_TAPS; k++) {
         double mean = 0.0;
-        for (size_t b = 0; b < a->bricks; b++)
-            for (int i = 0; i < FILTER_BLOCKS; i++)
-                mean += (double)a->weights[b].weight[k][i];
-        mean /= (double)a->bricks * FILTER_BLOCKS;
-        out[k] = mean * mean;
+        for (int i = 0; i < FILTER_KINDS; i++) {
+            const struct tally *t = tally[i];
+            double blocks = fmax(t[0].blocks + t[1].blocks, 1.0);
+            mean += a->fall[0].energy[i] * (t[0].weight[k] + t[1].weight[k]) /
+                    blocks;
+        }
+        mean *= all > 0.0 ? (double)a->judge.frames / all : 0.0;
+        out[k] = mean > ELSE ? mean * mean : 0.0;
     }
+}
+
+static struct filter_group group_of(const struct adapt *a,
+                                    const struct tally tally[2], int kind,
+                                    int moved)
+{
+    const struct tally *t = &tally[moved];
+    double blocks = t->blocks > 0.0 ? t->blocks : 1.0,
+           part = t->blocks / fmax(tally[0].blocks + tally[1].blocks, 1.0);
+    struct filter_group g = {
+        .energy = part * a->fall[moved].energy[kind],
+        .noise = part * a->fall[moved].noise[kind],
+        .variance = t->square / blocks,
+    };
+    memcpy(g.lost, a->fall[moved].lost[kind], sizeof g.lost);
+    for (int k = 0; k < BRUME_MAX_TAPS; k++)
+        g.weight[k] = (float)(t->weight[k] / blocks);
+    return g;
+}
+
+static void find_slopes(struct adapt *a)
+{
+    struct tally tally[FILTER_KINDS][2];
+    struct filter_group group[2 * FILTER_KINDS];
+    tally_weights(a, tally);
+    for (int i = 0; i < 2 * FILTER_KINDS; i++)
+        group[i] = group_of(a, tally[i / 2], i / 2, i % 2);
+    filter_detail_slopes(group, 2 * FILTER_KINDS);
+    for (int i = 0; i < 2 * FILTER_KINDS; i++)
+        a->slope[i % 2][i / 2] = group[i].slope;
 }
 
 static bool take_room(struct adapt *a, int threads,
@@ -518,10 +597,11 @@ static void adapt_field(struct adapt *a, int threads)
     double weight[BRUME_MAX_TAPS];
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         weight[k] = a->judge.has[k] ? 1.0 : 0.0;
-    find_lost(a, weight);
+    find_falls(a, weight);
     parallel_for(threads, flat->radiance_slots_count, weigh_brick, a, NULL);
     square_weights(a, weight);
-    find_lost(a, weight);
+    find_falls(a, weight);
+    find_slopes(a);
     parallel_for(threads, flat->radiance_slots_count, mix_brick, a, NULL);
 }
 

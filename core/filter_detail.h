@@ -1,10 +1,11 @@
 /* filter_detail.h - how fast the detail of a film's field changes.
  *
- * Noise has nothing in common from frame to frame: the mean product of what two
- * frames have above the mean of a brick is the energy of the detail that both
- * have. How that falls with their distance, and so how much of the detail a
- * mean over frames loses, shows over the whole field where it is far below the
- * noise of any cell. */
+ * Noise has nothing in common from frame to frame, nor from one half of a
+ * frame's photons to the other: the mean product of what two have above the
+ * mean of a brick is the energy of the detail that both have. How that falls
+ * with the frames' distance, and so how much of the detail a mean over frames
+ * loses, shows over the whole field where it is far below the noise of any
+ * cell. */
 #ifndef CORE_FILTER_DETAIL_H
 #define CORE_FILTER_DETAIL_H
 #include "core/filter_view.h"
@@ -24,25 +25,36 @@ void filter_detail_add(struct filter_detail *detail, int k, const float *color,
 
 enum { FILTER_PAIRS = BRUME_MAX_TAPS * (BRUME_MAX_TAPS - 1) / 2 };
 
-/* Sums over a brick's blocks of what each two frames have, in the order of the
- * first, then the second. */
+/* Sums over a brick's blocks of what each two frames have in common, in the
+ * order of the first, then the second; what the halves of each frame have (of
+ * those that are `given`, a bit each), and the mean of their noise. */
 struct filter_common {
-    float pair[FILTER_PAIRS];
+    float pair[FILTER_PAIRS], own[BRUME_MAX_TAPS];
+    float sum[BRUME_MAX_TAPS], whole[BRUME_MAX_TAPS];
+    float noise, whole_noise;
+    uint32_t given;
+    bool counts;                    /* it is there in all frames            */
 };
 
-/* 0 for a brick that is not there in all `frames` that `has` tells of. */
-void filter_detail_sum(struct filter_detail *detail,
+/* Fills the pairs; false for a brick that is not there as a whole in all
+ * `frames` that `has` tells of. */
+bool filter_detail_sum(struct filter_detail *detail,
                        const bool has[BRUME_MAX_TAPS], int frames,
                        struct filter_common *out);
 
-/* The part of the detail that a frame of distance 1 to BRUME_MAX_REACH lacks;
- * frames count by their weights. */
-void filter_detail_fit(const struct filter_common *brick, size_t bricks,
-                       const double weight[BRUME_MAX_TAPS],
-                       float lost[BRUME_MAX_REACH + 1]);
+/* Blocks that lose alike: their energies, mean weights and the mean of their
+ * sums of squares; `slope` is filled. */
+struct filter_group {
+    float lost[BRUME_MAX_REACH + 1], weight[BRUME_MAX_TAPS];
+    double energy, noise, variance;
+    float slope;
+};
 
-/* Changes weights of sum 1 so that they lose no more of the detail than they
- * may, least noise for what was most precise; some can become negative. */
-void filter_detail_keep(const float lost[BRUME_MAX_REACH + 1],
+/* So that all groups together lose no more of the detail than they may, for the
+ * least noise. */
+void filter_detail_slopes(struct filter_group *group, int groups);
+
+/* Changes weights of sum 1 accordingly; some can become negative. */
+void filter_detail_keep(const float lost[BRUME_MAX_REACH + 1], float slope,
                         float weight[BRUME_MAX_TAPS]);
 #endif

@@ -1,4 +1,5 @@
 #include "core/filter_judge.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
@@ -154,6 +155,27 @@ static void judge_middle(const struct side *middle, struct filter_stats *out)
 
 /* ---- bricks ------------------------------------------------------------- */
 
+/* What the halves of each frame tell of the brick at that place. */
+static void find_power(const struct filter_judge *judge, const int corner[3],
+                       struct filter_common *out)
+{
+    float noise = 0.0f, whole = 0.0f, count = 0.0f;
+    for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+        const struct filter_power *p = filter_view_power(&judge->view[k],
+                                                         corner);
+        if (!p)
+            continue;
+        out->own[k] = p->detail;
+        out->whole[k] = p->whole;
+        whole += p->whole_noise;
+        out->given |= 1u << k;
+        noise += p->noise;
+        count += 1.0f;
+    }
+    out->whole_noise = whole / fmaxf(count, 1.0f);
+    out->noise = noise / fmaxf(count, 1.0f);
+}
+
 static void judge_brick(void *context, size_t index, int thread)
 {
     const struct desk *desk = context;
@@ -188,7 +210,10 @@ static void judge_brick(void *context, size_t index, int thread)
         if (side[1].any && side[2].any)
             judge_pair(side, m, out);
     }
-    filter_detail_sum(detail, judge->has, judge->frames, common);
+    find_power(judge, corner, common);
+    common->counts = filter_detail_sum(detail, judge->has, judge->frames,
+                                       common) &&
+                     common->given >> FILTER_MIDDLE & 1;
 }
 
 /* Judges frames as they are, or moved. */

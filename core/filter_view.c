@@ -186,6 +186,17 @@ static const float *aligned_cells(const struct filter_view *v,
                    corner[1] + 8 * v->brick[1], corner[2] + 8 * v->brick[2]);
 }
 
+const struct filter_power *filter_view_power(const struct filter_view *v,
+                                             const int corner[3])
+{
+    const struct filter_field *f = v->field;
+    const float *cells = f && f->power && v->aligned ? aligned_cells(v, corner)
+                                                     : NULL;
+    return cells ? f->power + (size_t)(cells - f->cells) /
+                                  (FILTER_CELLS * (size_t)f->lattice.numbers)
+                 : NULL;
+}
+
 /* One of the 2^3 cells of a block of a brick. */
 static int cell_of_block(int block, int k)
 {

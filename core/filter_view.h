@@ -42,6 +42,10 @@ bool filter_view_brick(const struct filter_view *view, const int corner[3],
                        const struct filter_places *places,
                        struct filter_room *room, struct filter_brick *out);
 
+/* What the halves of the field's photons tell of a brick; NULL: nothing. */
+const struct filter_power *filter_view_power(const struct filter_view *view,
+                                             const int corner[3]);
+
 /* The first cell of a brick. */
 void filter_corner(const radiance_lattice *lattice, size_t brick, int at[3]);
 #endif

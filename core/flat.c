@@ -51,5 +51,6 @@ void flat_free(struct flat *flat)
 #undef X
     free(flat->bounds);
     free(flat->drift);
+    free(flat->half);
     free(flat);
 }

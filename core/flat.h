@@ -16,6 +16,10 @@ struct flat {
     size_t bounds_count, bounds_capacity;
     /* How far what is in the field moves in a frame (drift.h); or NULL. */
     float *drift;
+    /* What the first of two halves of the photons gave the field's blocks (see
+     * half.h), and that half's part of all photons; or NULL. */
+    float *half;
+    double half_part;
     /* How unit space lies: p_unit = (p - centre) unit. */
     double unit, centre[3];
     matrix to_unit, from_unit;

@@ -135,12 +135,31 @@ static bool tell(struct frame_job *j, struct brume_progress *p, double items)
     return goes_on(j, now);
 }
 
+/* Filters of films tell light from noise by what the halves of the photons
+ * have in common. */
+static bool wants_halves(const struct frame_job *j)
+{
+    const struct brume_options *o = j->options;
+    return o->photons.adaptive && brume_film_reach(o) > 0 &&
+           !j->stages.passes && photons_asked(o) > 1;
+}
+
+/* The part of all, of that of the half that is traced. */
+static double photons_done(const struct frame_job *j, double done)
+{
+    double count = (double)j->photons, left = count - (double)j->photons_done;
+    double half = wants_halves(j) ? floor(0.5 * count) : count;
+    half = j->photons_done > 0 ? left : half;
+    return ((double)j->photons_done + done * half) / count;
+}
+
 static bool tick(void *user, double done)
 {
     struct frame_job *j = user;
     if (!j->options->progress)
         return true;
     if (j->photons > 0) {
+        done = photons_done(j, done);
         struct brume_progress p = {
             .stage = "trace", .item = "photons", .fraction = done};
         return tell(j, &p, done * (double)j->photons);
@@ -420,6 +439,34 @@ static void report_goal(const struct frame_job *j)
     }
 }
 
+static bool trace_part(struct frame_job *j, const photon_job *job,
+                       struct brume_error *err)
+{
+    bool good = job->count == 0 ||
+                j->backend->trace(j->state, job, &j->out->stats, err);
+    j->photons_done += job->count;
+    return stop_or(j, good, err);
+}
+
+static bool trace_halves(struct frame_job *j, const photon_job *whole,
+                         struct brume_error *err)
+{
+    struct flat *flat = j->flat;
+    photon_job half;
+    free(flat->half);
+    flat->half = memory_new(radiance_blocks(flat), sizeof *flat->half, err);
+    if (!flat->half)
+        return false;
+    photons_halve(whole, 0, &half);
+    flat->half_part = (double)half.count / (double)whole->count;
+    if (!trace_part(j, &half, err) ||
+        !j->backend->halve(j->state, whole->power / (double)whole->count,
+                           flat->half, err))
+        return false;
+    photons_halve(whole, 1, &half);
+    return trace_part(j, &half, err);
+}
+
 /* Emits, traces and gathers: fills the field of scattered light. */
 static bool run_photons(struct frame_job *j, struct brume_error *err)
 {
@@ -438,11 +485,13 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
     if (!j->stages.passes) {
         j->sampling = start;
         j->photons = photons.job.count;
+        j->photons_done = 0;
     }
     bool good = photons.job.sources == 0 ||
-                b->trace(j->state, &photons.job, &j->out->stats, err);
+                (wants_halves(j) ? trace_halves(j, &photons.job, err)
+                                 : trace_part(j, &photons.job, err));
     j->power = photons.job.power / (double)photons.job.count;
-    good = stop_or(j, good, err) && b->gather(j->state, j->power, err);
+    good = good && b->gather(j->state, j->power, err);
     stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
     stats->side = (double)flat->view.field.side / flat->unit;
     stats->bytes = radiance_sum_bytes(flat) +

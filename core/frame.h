@@ -29,6 +29,7 @@ struct frame_job {
     bool rendering;         /* the picture, not its field alone        */
     bool torn;              /* pixels have different samples           */
     uint64_t photons;       /* of the trace that runs; 0: paths do     */
+    uint64_t photons_done;  /* of these, by the traces before          */
     bool stopped;
 };
 

@@ -99,6 +99,13 @@ uint64_t photons_asked(const struct brume_options *options)
                : BRUME_DEFAULT_PHOTONS;
 }
 
+/* Births of voxels keep their order: each pass has them elsewhere. */
+static float turned(float shift, uint32_t pass)
+{
+    double turn = (double)shift + 0.61803398874989 * pass;
+    return (float)(turn - floor(turn));
+}
+
 bool photons_plan(const struct flat *flat, const struct brume_options *options,
                   uint32_t pass, struct photons *out, struct brume_error *err)
 {
@@ -117,12 +124,19 @@ bool photons_plan(const struct flat *flat, const struct brume_options *options,
         out->job.shift[i] = (uint64_t)rng_u32(&random) << 32;
         out->job.shift[i] |= rng_u32(&random);
     }
-    /* Births of voxels keep their order: each pass has them elsewhere. */
-    double turn = (double)rng_float(&random) + 0.61803398874989 * pass;
-    out->job.shift_share = (float)(turn - floor(turn));
+    out->job.shift_share = turned(rng_float(&random), pass);
     list_sources(s, out);
     share_out(s, out);
     return true;
+}
+
+void photons_halve(const photon_job *whole, int half, photon_job *out)
+{
+    uint64_t first = whole->count / 2;
+    *out = *whole;
+    out->count = half == 0 ? first : whole->count - first;
+    out->first = whole->first + (half == 0 ? 0 : first);
+    out->shift_share = turned(whole->shift_share, (uint32_t)half);
 }
 
 void photons_release(struct photons *photons)

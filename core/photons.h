@@ -18,5 +18,7 @@ uint64_t photons_asked(const struct brume_options *options);
  * toward it. */
 bool photons_plan(const struct flat *flat, const struct brume_options *options,
                   uint32_t pass, struct photons *out, struct brume_error *err);
+/* One of two halves of its photons: two passes of half as many. */
+void photons_halve(const photon_job *whole, int half, photon_job *out);
 void photons_release(struct photons *photons);
 #endif

@@ -543,6 +543,11 @@ bool radiance_renew(struct flat *flat, const struct brume_options *options,
                    room_for(&l, options->memory), err);
 }
 
+size_t radiance_blocks(const struct flat *flat)
+{
+    return flat->radiance_count / (8 * (size_t)flat->view.field.numbers);
+}
+
 uint64_t radiance_sum_bytes(const struct flat *flat)
 {
     return flat->radiance_count * sizeof(int64_t);

@@ -14,6 +14,9 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
 bool radiance_renew(struct flat *flat, const struct brume_options *options,
                     uint32_t pass, struct brume_error *err);
 
+/* Blocks of 2^3 cells of a field whose bricks are all alike. */
+size_t radiance_blocks(const struct flat *flat);
+
 /* Bytes of the sums that photons are added up in. */
 uint64_t radiance_sum_bytes(const struct flat *flat);
 

@@ -112,6 +112,7 @@ const struct backend backend_cpu = {
     .open = cpu_open,
     .trace = cpu_trace,
     .gather = cpu_gather,
+    .halve = cpu_halve,
     .sample = cpu_sample,
     .close = cpu_close,
     .renew = cpu_renew,

@@ -21,6 +21,8 @@ bool cpu_trace(void *state, const photon_job *job, struct brume_stats *stats,
                struct brume_error *err);
 
 /* gather.c */
+bool cpu_halve(void *state, double unit, float *blocks,
+               struct brume_error *err);
 bool cpu_gather(void *state, double unit, struct brume_error *err);
 
 /* backend.c */

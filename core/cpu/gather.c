@@ -2,6 +2,7 @@
  * into it, a brick at a time. */
 #include "core/cpu/cpu.h"
 #include <string.h>
+#include "core/physics/half.h"
 #include "core/physics/lit_cell.h"
 #include "core/radiance.h"
 #include "lib/memory.h"
@@ -50,6 +51,18 @@ static bool sharpen(struct cpu_state *s, struct brume_error *err)
     memcpy(s->means, flat->radiance, count * sizeof *s->means);
     parallel_for(s->threads, (size_t)flat->radiance_slots_count, sharpen_brick,
                  s, &s->stop);
+    return true;
+}
+
+bool cpu_halve(void *state, double unit, float *blocks, struct brume_error *err)
+{
+    (void)err;
+    const struct cpu_state *s = state;
+    const radiance_lattice *f = &s->frame.flat->view.field;
+    double scale = radiance_scale(f, unit);
+    size_t count = radiance_blocks(s->frame.flat);
+    for (size_t i = 0; i < count; i++)
+        blocks[i] = half_block(f, s->sum, i, scale);
     return true;
 }
 

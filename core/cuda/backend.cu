@@ -265,6 +265,7 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 }
 
 extern "C" const struct backend backend_cuda = {
-    "cuda",   cuda_available, cuda_open,  cuda_trace, cuda_gather,  cuda_take,
-    cuda_put, cuda_sample,    cuda_close, cuda_renew, cuda_devices, cuda_use,
+    "cuda",     cuda_available, cuda_open, cuda_trace,  cuda_gather,
+    cuda_halve, cuda_take,      cuda_put,  cuda_sample, cuda_close,
+    cuda_renew, cuda_devices,   cuda_use,
 };

@@ -36,6 +36,7 @@ bool photons_open(cuda_state *s, brume_error *err);
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
                 brume_error *err);
 bool cuda_gather(void *state, double unit, brume_error *err);
+bool cuda_halve(void *state, double unit, float *blocks, brume_error *err);
 bool cuda_take(void *state, float *cells, brume_error *err);
 bool cuda_put(void *state, const float *cells, brume_error *err);
 bool cuda_renew(void *state, brume_error *err);

@@ -2,6 +2,7 @@
  * counts. The sums of the field's cells and the field stay on the device. */
 #include "core/cuda/backend.cuh"
 #include "core/cuda/count.cuh"
+#include "core/physics/half.h"
 extern "C" {
 #include "core/radiance.h"
 }
@@ -112,6 +113,15 @@ __global__ void resolve(const int64_t *sum, float *cells, uint64_t count,
         cells[i] = static_cast<float>(static_cast<double>(sum[i]) * scale);
 }
 
+/* A block of cells a thread. */
+__global__ void halve(radiance_lattice field, const int64_t *sum, float *blocks,
+                      uint64_t count, double scale)
+{
+    uint64_t i = static_cast<uint64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+    if (i < count)
+        blocks[i] = half_block(&field, sum, i, scale);
+}
+
 /* A brick a block, a cell a thread. */
 __global__ void sharpen(const __grid_constant__ flat_scene scene,
                         const float *means, float *cells)
@@ -208,6 +218,23 @@ bool cuda_gather(void *state, double unit, brume_error *err)
                         err) &&
            device_clock_stop(&s->clock, 1, "the gather stage", err) &&
            device_clock_add(&s->clock, 0, &s->spent.gather);
+}
+
+/* By way of the field, which is yet to be made. */
+bool cuda_halve(void *state, double unit, float *blocks, brume_error *err)
+{
+    cuda_state *s = static_cast<cuda_state *>(state);
+    const radiance_lattice *f = &s->frame.flat->view.field;
+    uint64_t count = radiance_blocks(s->frame.flat);
+    if (count == 0)
+        return true;
+    halve<<<static_cast<unsigned>((count + block_size - 1) / block_size),
+            block_size>>>(*f, s->sum, s->cells, count, radiance_scale(f, unit));
+    return device_check(cudaGetLastError(), "launching the gather stage",
+                        err) &&
+           device_check(cudaMemcpy(blocks, s->cells, count * sizeof *blocks,
+                                   cudaMemcpyDeviceToHost),
+                        "reading the field", err);
 }
 
 bool cuda_take(void *state, float *cells, brume_error *err)
