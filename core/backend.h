@@ -51,6 +51,8 @@ struct backend {
      * calling thread's from now on; NULL: there are none to choose from. */
     int (*devices)(void);
     void (*use)(int device);
+    /* Whether it builds trees that are left to it (order.h). */
+    bool builds;
 };
 
 /* Where a backend keeps what stays on its device from frame to frame of a

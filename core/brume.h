@@ -474,11 +474,12 @@ struct brume_options {
     struct brume_still *still;  /* of BRUME_TREE_BOTH, or NULL             */
     struct brume_photon_options photons;
     const struct brume_keeper *keeper;  /* or NULL                         */
+    bool tree_on_cpu;           /* where else a GPU would build it         */
 };
 #define BRUME_OPTIONS_INIT                                                    \
     {640, 480, 0, 0, 0, 0, BRUME_INTEGRATOR_PATH, BRUME_BACKEND_AUTO, 0, 0,   \
      0, 0, 0, 0, 0, NULL, NULL, NULL, false, BRUME_TREE_BVH, 0, NULL,         \
-     BRUME_PHOTONS_INIT, NULL}
+     BRUME_PHOTONS_INIT, NULL, false}
 /* The error aimed at when neither spp, error nor seconds is given, and the
  * most samples that an error is chased with. */
 #define BRUME_DEFAULT_ERROR 0.05
@@ -506,7 +507,8 @@ BRUME_API bool brume_plan_frame(brume_scene *scene,
 
 /* On a GPU, by its own clock. */
 struct brume_device_seconds {
-    double upload, trace, gather;   /* of the scene; of photons; the field */
+    double upload, tree;            /* of the scene; its tree, built there */
+    double trace, gather;           /* of photons; the field               */
     double lines, paths;            /* straight lines, and what has noise  */
 };
 

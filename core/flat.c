@@ -1,4 +1,5 @@
 #include "core/flat.h"
+#include "core/order.h"
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
@@ -52,5 +53,6 @@ void flat_free(struct flat *flat)
     free(flat->bounds);
     free(flat->drift);
     free(flat->half);
+    order_free(flat->order);
     free(flat);
 }

@@ -20,6 +20,8 @@ struct flat {
      * half.h), and that half's part of all photons; or NULL. */
     float *half;
     double half_part;
+    /* A tree that is left to the backend (order.h); or NULL. */
+    struct tree_order *order;
     /* How unit space lies: p_unit = (p - centre) unit. */
     double unit, centre[3];
     matrix to_unit, from_unit;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/drift.h"
+#include "core/order.h"
 #include "core/physics/kdtree.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
@@ -502,13 +503,26 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
     return good;
 }
 
+/* A tree that was left to a backend that does not build any. */
+static bool build_tree(const struct backend *b, struct flat *flat,
+                       struct brume_error *err)
+{
+    return b->builds || order_build(flat, err);
+}
+
+static void *open_it(const struct backend *b, const struct backend_frame *frame,
+                     struct brume_error *err)
+{
+    return build_tree(b, frame->flat, err) ? b->open(frame, err) : NULL;
+}
+
 /* Opens the chosen backend. One that was not asked for by name gives way to
  * the CPU's where its memory is too small. */
 static void *open_backend(struct frame_job *j, const struct backend **b,
                           const struct backend_frame *frame,
                           struct brume_error *err)
 {
-    void *state = (*b)->open(frame, err);
+    void *state = open_it(*b, frame, err);
     if (state || *b == &backend_cpu || err->code != BRUME_ERR_MEMORY ||
         j->options->backend != BRUME_BACKEND_AUTO)
         return state;
@@ -516,7 +530,7 @@ static void *open_backend(struct frame_job *j, const struct backend **b,
     snprintf(text, sizeof text, "%s; the CPU renders instead", err->text);
     warn(j, text);
     *b = &backend_cpu;
-    return (*b)->open(frame, err);
+    return open_it(*b, frame, err);
 }
 
 /* Makes the film and brings the scene to the backend. */
@@ -599,6 +613,16 @@ bool frame_render(struct frame_job *j, bool traced, struct brume_error *err)
     return good;
 }
 
+/* Whether the backend that will be opened builds trees. */
+static bool leaves_tree(const struct brume_options *options)
+{
+    struct brume_error none = {0};
+    const struct backend *b = options->tree_on_cpu
+                                  ? NULL
+                                  : choose_backend(options, &none);
+    return b && b->builds;
+}
+
 static struct flat *prepare(brume_scene *scene,
                             const struct brume_options *options,
                             struct brume_error *err)
@@ -609,7 +633,8 @@ static struct flat *prepare(brume_scene *scene,
                         .user = options->user,
                         .tree = options->tree,
                         .tree_stack = options->tree_stack,
-                        .still = options->still};
+                        .still = options->still,
+                        .later = leaves_tree(options)};
     if (p.tree_stack == 0)
         p.tree_stack = DEFAULT_STACK;
     if (p.tree_stack < 1 || p.tree_stack > KD_MAX_STACK) {

@@ -1,4 +1,5 @@
 #include "core/plan.h"
+#include "core/order.h"
 #include "core/prepare.h"
 #include <math.h>
 #include <stdarg.h>
@@ -45,6 +46,15 @@ bool plan_layout(struct flat *flat, const struct brume_options *options,
 {
     return !plan_stages(flat, options).photons ||
            radiance_layout(flat, options, err);
+}
+
+/* From so many on: below, a GPU's launches take longer than the CPU does. */
+#define WORTH_LEAVING 1024
+
+bool plan_leaves_tree(const struct flat *flat, enum brume_tree tree)
+{
+    return tree != BRUME_TREE_BOTH &&
+           flat->shapes_count + flat->triangles_count >= WORTH_LEAVING;
 }
 
 /* Whether a point may lie in several media, or shapes with media. */
@@ -110,6 +120,11 @@ static bool has_functions(const struct flat *f)
     return f->sky_count > 0 && f->sky[0].function >= 0;
 }
 
+static bool has_kd(const struct flat *f)
+{
+    return f->kd_count > 0 || (f->order && f->order->tree == BRUME_TREE_KD);
+}
+
 static int scene_needs(const struct flat *f)
 {
     return (has_solids(f) ? MAY_SOLIDS : 0) |
@@ -120,7 +135,7 @@ static int scene_needs(const struct flat *f)
            (has_emission(f) ? MAY_EMISSION : 0) |
            (f->sky_count > 0 ? MAY_SKY : 0) |
            (f->view.local_lights ? MAY_LAMPS : 0) |
-           (f->kd_count > 0 ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
+           (has_kd(f) ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
            (has_colors(f) ? MAY_COLORS : 0) |
            (f->view.field.ball ? MAY_BALLS : 0) |
            (has_clear(f) ? MAY_CLEAR : 0);
@@ -144,7 +159,7 @@ struct stages plan_stages(const struct flat *f,
 {
     struct stages s;
     s.load = f->tiles_count > 0;
-    s.accel = f->bvh_count > 0 || f->kd_count > 0;
+    s.accel = f->bvh_count > 0 || f->kd_count > 0 || f->order;
     s.glow = f->glows_count > 0;
     s.march = true;
     bool lit = f->view.scatters && is_lit(f);
@@ -255,6 +270,10 @@ static const char *glow_reason(const struct flat *f, const struct stages *s)
 
 static const char *accel_reason(const struct flat *f)
 {
+    if (f->order)
+        return has_kd(f)
+                   ? "there is bounded geometry, in a kd-tree, built on the GPU"
+                   : "there is bounded geometry, in a BVH, built on the GPU";
     if (f->bvh_count > 0 && f->kd_count > 0)
         return "there is bounded geometry, in a BVH and a kd-tree";
     if (f->bvh_count > 0)
@@ -412,7 +431,8 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
     add_stage(plan, "load", s.load, grid_bytes(f),
               s.load ? "media read grids" : "no medium reads a grid");
     add_stage(plan, "accel", s.accel,
-              f->bvh_count * sizeof *f->bvh + f->kd_count * sizeof *f->kd +
+              order_bytes(f) + f->bvh_count * sizeof *f->bvh +
+                  f->kd_count * sizeof *f->kd +
                   (f->bvh_items_count + f->kd_items_count) * 4u +
                   f->triangles_count * sizeof *f->triangles,
               accel_reason(f));

@@ -20,6 +20,10 @@ struct stages {
 struct stages plan_stages(const struct flat *flat,
                           const struct brume_options *options);
 
+/* Whether a tree over what there is pays to be left to a backend that builds it
+ * on its device. */
+bool plan_leaves_tree(const struct flat *flat, enum brume_tree tree);
+
 /* Lays out what the stages need beyond the prepared scene. */
 bool plan_layout(struct flat *flat, const struct brume_options *options,
                  struct brume_error *err);

@@ -14,6 +14,7 @@ struct prepare {
     enum brume_tree tree;
     int tree_stack;         /* entries                                     */
     struct brume_still *still;
+    bool later;             /* a tree may be left to the backend           */
     bool exact;             /* for queries: all numbers in double, and trees
                                of single shapes too                        */
 };

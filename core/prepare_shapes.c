@@ -6,6 +6,8 @@
 #include "core/bvh.h"
 #include "core/kdtree.h"
 #include "core/physics/bvh.h"
+#include "core/order.h"
+#include "core/plan.h"
 #include "core/prepare.h"
 #include "core/still.h"
 #include "lib/memory.h"
@@ -250,6 +252,7 @@ struct trees {
     uint32_t *root;
     uint64_t from; /* names of those of the parts                 */
     int deepest;
+    bool later; /* the tree of all is left to the backend      */
 };
 
 static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
@@ -279,6 +282,8 @@ static bool build_tree(const struct prepare *job, const struct trees *trees,
     struct flat *f = job->flat;
     size_t first = f->bvh_count;
     bool good = false;
+    if (trees->later)
+        return order_tree(f, job->tree, job->tree_stack, items, count, err);
     switch (job->tree) {
     case BRUME_TREE_BVH:
         good = still_bvh(job->still, f, items, count, trees->from,
@@ -385,7 +390,8 @@ static bool make_tree(const struct prepare *job, const struct assembly *a,
     size_t count = 0, first = job->flat->bvh_count;
     if (!list_shapes(job, a, items, &count, err))
         return false;
-    list_meshes(job->flat, a, trees, items, &count);
+    if (!trees->later)
+        list_meshes(job->flat, a, trees, items, &count);
     return build_tree(job, trees, items, count, err) &&
            add_trees(job->flat, trees, first, err);
 }
@@ -426,7 +432,7 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
     size_t count = a->parts_count;
     enum { DEEPEST = BVH_STACK / 2 };
     trees->from = f->shapes_count + f->triangles_count;
-    if (!still || job->tree != BRUME_TREE_BVH || job->exact)
+    if (!still || job->tree != BRUME_TREE_BVH || job->exact || trees->later)
         return true;
     trees->of = memory_new(count, sizeof(struct mesh_tree *), err);
     trees->root = memory_new(count, sizeof *trees->root, err);
@@ -453,7 +459,9 @@ static bool make_trees(const struct prepare *job, const struct assembly *a,
                        struct brume_error *err)
 {
     struct flat *f = job->flat;
-    struct trees trees = {.of = NULL};
+    struct trees trees = {.of = NULL,
+                          .later = job->later && !job->exact &&
+                                   plan_leaves_tree(f, job->tree)};
     size_t most = f->shapes_count + f->triangles_count;
     if (most + f->shapes_count > UINT32_MAX)
         return brume_fail(err, BRUME_ERR_LIMIT, "more than 2^32 surfaces");

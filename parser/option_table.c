@@ -30,6 +30,12 @@ static const struct option_word tree_words[] = {
     {NULL, 0, false},
 };
 
+static const struct option_word tree_on_words[] = {
+    {"auto", 0, false},
+    {"cpu", 1, false},
+    {NULL, 0, false},
+};
+
 static const struct option_word preset_words[] = {
     {"paper", 1, false},
     {NULL, 0, false},
@@ -247,6 +253,9 @@ const struct option option_table[] = {
       .help = "of a film: that many GPUs, or all" },
     { .name = "tree", .value = "name", .set = set_word, .at = AT(tree),
       .words = tree_words, .help = "bvh, kd or both: how surfaces are found" },
+    { .name = "tree-on", .value = "name", .set = set_word,
+      .at = AT(tree_on_cpu), .words = tree_on_words,
+      .help = "auto or cpu: where it is built" },
     { .name = "stack", .value = "n", .set = set_integer, .at = AT(tree_stack),
       .low = 1, .high = 32, .initial = 4, .help = "of the kd-tree" },
     { .name = "seed", .value = "n", .set = set_unsigned, .at = AT(seed),

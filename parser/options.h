@@ -86,6 +86,7 @@ struct options {
     enum brume_integrator integrator;
     enum brume_tree tree;
     int tree_stack;
+    int tree_on_cpu;
     int preset;                     /* 1: paper                            */
     int taps;                       /* of --temporal; 0: not given         */
     bool adaptive;

@@ -258,6 +258,7 @@ struct brume_options reel_options(struct reel *reel, int number,
     r.seconds = chosen ? o->seconds : scene->time_limit;
     r.tree = o->tree;
     r.tree_stack = o->tree_stack;
+    r.tree_on_cpu = o->tree_on_cpu != 0;
     r.still = reel->still;
     r.threads = o->threads;
     r.seed = o->seed;

@@ -97,6 +97,7 @@ static bool put_device(struct json *json, const struct brume_device_seconds *d)
 {
     struct json *out = json_new_object();
     bool ok = json_put_number(out, "upload", d->upload) &&
+              json_put_number(out, "tree", d->tree) &&
               json_put_number(out, "trace", d->trace) &&
               json_put_number(out, "gather", d->gather) &&
               json_put_number(out, "lines", d->lines) &&

@@ -48,6 +48,7 @@ void cuda_close(void *state)
     if (s) {
         device_arena_free(&s->arena);
         device_arena_free(&s->field);
+        device_arena_free(&s->kd.arena);
         device_clock_free(&s->clock);
     }
     delete s;
@@ -67,7 +68,7 @@ size_t frame_bytes(const cuda_state *s)
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
-                   photons_bytes(s);
+                   photons_bytes(s) + tree_scene_bytes(s);
 #define X(type, name)                                                          \
     if (!stays(s, view->name, view->name##_count * sizeof(type)))              \
         bytes += device_round(view->name##_count * sizeof(type));
@@ -177,7 +178,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     describe_job(&s->job, frame);
     if (open_device(s, err) &&
         device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
-        start_film(s, err) && photons_open(s, err))
+        tree_scene_build(s, err) && start_film(s, err) && photons_open(s, err))
         return s;
     cuda_close(s);
     return nullptr;
@@ -187,6 +188,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
 void give_times(cuda_state *s, brume_device_seconds *out)
 {
     out->upload += s->spent.upload;
+    out->tree += s->spent.tree;
     out->trace += s->spent.trace;
     out->gather += s->spent.gather;
     out->lines += s->spent.lines;
@@ -228,6 +230,7 @@ bool cuda_sample(void *state, uint32_t *samples, brume_stats *stats,
     cuda_state *s = static_cast<cuda_state *>(state);
     const film *f = s->frame.film;
     stats->uploaded += resident_uploaded(s->kept);
+    resident_trees(s->kept, &stats->trees_built, &stats->trees_kept);
     if (film_pixels(f) == 0)
         return true;
     if (!device_check(cudaMemset(s->job.count, 0, sizeof *s->job.count),
@@ -267,5 +270,5 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 extern "C" const struct backend backend_cuda = {
     "cuda",     cuda_available, cuda_open, cuda_trace,  cuda_gather,
     cuda_halve, cuda_take,      cuda_put,  cuda_sample, cuda_close,
-    cuda_renew, cuda_devices,   cuda_use,
+    cuda_renew, cuda_devices,   cuda_use,  true,
 };

@@ -2,6 +2,7 @@
 #ifndef CORE_CUDA_BACKEND_CUH
 #define CORE_CUDA_BACKEND_CUH
 #include "core/cuda/photons.cuh"
+#include "core/cuda/tree.cuh"
 extern "C" {
 #include "core/backend.h"
 }
@@ -25,6 +26,7 @@ struct cuda_state {
     int processors, trace_threads;
     device_clock clock;
     brume_device_seconds spent; /* since the last sample                   */
+    tree_kd kd;                 /* the scene's, if it does not stay        */
 };
 
 /* photons.cu */
@@ -40,6 +42,13 @@ bool cuda_halve(void *state, double unit, float *blocks, brume_error *err);
 bool cuda_take(void *state, float *cells, brume_error *err);
 bool cuda_put(void *state, const float *cells, brume_error *err);
 bool cuda_renew(void *state, brume_error *err);
+
+/* tree_scene.cu */
+
+/* Bytes of a tree that is left to the device. */
+size_t tree_scene_bytes(const cuda_state *s);
+/* Builds it, or takes that of a frame before; the triangles are there. */
+bool tree_scene_build(cuda_state *s, brume_error *err);
 
 /* backend.cu */
 void cuda_add_track(const device_counters *c, brume_stats *out);

@@ -19,14 +19,16 @@ struct resident {
     char *device;
     chunk *piece; /* of its bytes                              */
     size_t pieces;
-    int age; /* frames since it was taken last             */
+    int age;         /* frames since it was taken last             */
+    bool made, told; /* the device fills it; it is full             */
+    resident_note note;
 };
 
 }
 
 struct resident_set {
     resident *first;
-    uint64_t uploaded;
+    uint64_t uploaded, built, had;
 };
 
 namespace
@@ -201,7 +203,7 @@ const void *resident_take(resident_set *set, const void *host, size_t bytes,
 {
     uint64_t hash = hash_bytes(HASH_START, host, bytes);
     resident *r = set->first;
-    while (r && (r->bytes != bytes || r->hash != hash))
+    while (r && (r->made || r->bytes != bytes || r->hash != hash))
         r = r->next;
     if (!r)
         r = add(set, bytes, hash, host, err);
@@ -215,6 +217,81 @@ void resident_end(resident_set *set)
 {
     if (set)
         drop(set, 1);
+}
+
+bool resident_hash(const resident_set *set, const void *device, uint64_t *hash)
+{
+    const resident *r = set ? set->first : nullptr;
+    while (r && (r->made || r->device != device))
+        r = r->next;
+    if (r)
+        *hash = r->hash;
+    return r != nullptr;
+}
+
+namespace
+{
+
+resident *find_made(resident_set *set, uint64_t hash)
+{
+    resident *r = set->first;
+    while (r && (!r->made || r->hash != hash))
+        r = r->next;
+    return r;
+}
+
+}
+
+void *resident_find(resident_set *set, uint64_t hash, resident_note *note)
+{
+    resident *r = find_made(set, hash);
+    if (!r || !r->told)
+        return nullptr;
+    r->age = 0;
+    *note = r->note;
+    return r->device;
+}
+
+void *resident_room(resident_set *set, uint64_t hash, size_t bytes,
+                    brume_error *err)
+{
+    resident *r = new (std::nothrow) resident();
+    if (!r) {
+        brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+        return nullptr;
+    }
+    r->bytes = bytes;
+    r->hash = hash;
+    r->made = true;
+    if (!allocate(set, r, err)) {
+        forget(r);
+        return nullptr;
+    }
+    r->next = set->first;
+    set->first = r;
+    return r->device;
+}
+
+void resident_say(resident_set *set, uint64_t hash, const resident_note *note)
+{
+    resident *r = find_made(set, hash);
+    r->note = *note;
+    r->told = true;
+}
+
+void resident_tree(resident_set *set, bool built)
+{
+    if (set)
+        ++*(built ? &set->built : &set->had);
+}
+
+void resident_trees(resident_set *set, uint64_t *built, uint64_t *kept)
+{
+    if (!set)
+        return;
+    *built += set->built;
+    *kept += set->had;
+    set->built = set->had = 0;
 }
 
 uint64_t resident_uploaded(resident_set *set)

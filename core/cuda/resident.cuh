@@ -24,6 +24,28 @@ const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err);
 void resident_end(resident_set *set);
 
+/* What there is to tell of memory that the device fills itself. */
+struct resident_note {
+    uint64_t count[2];
+    bvh_node box;
+};
+
+/* The hash of an array that was taken; false: it is none. */
+bool resident_hash(const resident_set *set, const void *device, uint64_t *hash);
+/* Memory that was filled, by the hash of what it was made of; NULL: it is not
+ * there. It is taken. */
+void *resident_find(resident_set *set, uint64_t hash, resident_note *note);
+/* Memory to be filled, which is there once that has been said; NULL with err
+ * set. */
+void *resident_room(resident_set *set, uint64_t hash, size_t bytes,
+                    brume_error *err);
+void resident_say(resident_set *set, uint64_t hash, const resident_note *note);
+
+/* Counts a tree that was built, or was there; adds up those since the last
+ * call. */
+void resident_tree(resident_set *set, bool built);
+void resident_trees(resident_set *set, uint64_t *built, uint64_t *kept);
+
 /* Bytes uploaded since the last call. */
 uint64_t resident_uploaded(resident_set *set);
 #endif

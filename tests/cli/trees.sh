@@ -37,7 +37,7 @@ done
 
 new_case 'the plan tells of it'
 for tree in 'bvh a BVH' 'kd a kd-tree'; do
-    brume film.pov --explain --tree "${tree%% *}"
+    brume film.pov --explain --backend cpu --tree "${tree%% *}"
     grep -q "accel .*geometry, in ${tree#* }\$" printed ||
         complain "not: ${tree#* }"
 done
@@ -48,6 +48,13 @@ for stack in 0 33 many; do
     exits 2
 done
 quick film.pov --tree oak
+exits 2
+
+new_case 'where it is built'
+quick film.pov +KFF3 --tree-on cpu +Oon.exr +W64 +H48
+exits 0
+same bvh2.exr on2.exr
+quick film.pov --tree-on mars
 exits 2
 
 end_cases

@@ -10,6 +10,7 @@
  * differs. */
 #include "tests/unit/tree_meshes.h"
 #include "tests/gpu/shoot.h"
+#include "lib/thread.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <time.h>
@@ -152,12 +153,24 @@ static uint64_t count_differences(const ray_hit *a, const ray_hit *b)
     return n;
 }
 
+struct shots {
+    const struct flat *flat;
+    const bvh_ray *ray;
+    ray_hit *hit;
+};
+
+static void shoot_one(void *context, size_t i, int thread)
+{
+    struct shots *s = context;
+    ray_hit after = hit_start(0.0f);
+    (void)thread;
+    s->hit[i] = bvh_nearest(&s->flat->view, &s->ray[i], &after, INFINITY);
+}
+
 static void shoot_host(const struct flat *f, const bvh_ray *ray, ray_hit *hit)
 {
-    for (size_t i = 0; i < rays; i++) {
-        ray_hit after = hit_start(0.0f);
-        hit[i] = bvh_nearest(&f->view, &ray[i], &after, INFINITY);
-    }
+    struct shots s = {f, ray, hit};
+    parallel_for(0, rays, shoot_one, &s, NULL);
 }
 
 /* ---- rows --------------------------------------------------------------- */

@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include "core/order.h"
 #include "core/prepare.h"
 #include "core/still.h"
 #include "tests/unit/tree_meshes.h"
@@ -360,6 +361,41 @@ static void test_still__meshes(void **state)
     brume_still_free(still);
 }
 
+/* A tree that was left to a backend that builds none. */
+static void test_order__build(void **state)
+{
+    (void)state;
+    static const enum brume_tree tree[] = {BRUME_TREE_BVH, BRUME_TREE_KD};
+    struct brume_error err = {0};
+    struct mesh *mesh = ply_load(spot, &err);
+    brume_scene *scene = mesh_scene(mesh, 0.4);
+    struct prepare with = {.scene = scene, .tree_stack = 4};
+    struct flat *plain = prepare_scene(&with, &err);
+    assert_non_null(plain);
+    assert_int_equal(order_count(plain), 0);
+    with.later = true;
+    for (int i = 0; i < 2; i++) {
+        with.tree = tree[i];
+        struct flat *f = prepare_scene(&with, &err);
+        assert_non_null(f);
+        assert_int_equal(order_count(f), 40 + 2 * mesh->triangles);
+        assert_int_equal(f->view.bvh_root, -1);
+        assert_true(order_bytes(f) > 40 * order_count(f));
+        assert_true(order_build(f, &err));
+        assert_int_equal(order_count(f), 0);
+        assert_int_equal(f->kd_count > 0, i);
+        assert_same_hits(f, plain);
+        flat_free(f);
+    }
+    with.tree = BRUME_TREE_BOTH;
+    struct flat *both = prepare_scene(&with, &err);
+    assert_int_equal(order_count(both), 0);
+    flat_free(both);
+    flat_free(plain);
+    brume_scene_free(scene);
+    mesh_free(mesh);
+}
+
 /* Things that came and went give the others other numbers. */
 static void test_still__renumbered(void **state)
 {
@@ -391,6 +427,7 @@ int main(void)
         cmocka_unit_test(test_still__bvh),
         cmocka_unit_test(test_still__meshes),
         cmocka_unit_test(test_still__renumbered),
+        cmocka_unit_test(test_order__build),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
