@@ -36,6 +36,9 @@
  * each other would choose by their noise, and the choice would keep it. */
 #define DOUBT 8.0f
 
+/* What the halves of a frame may show of noise, over what it is told to be. */
+#define STRAY 4.0f
+
 /* The part of a frame's variance that is left where its cells are interpolated,
  * which is 0.3 of independent ones at random places. */
 #define MOVED_PART 0.6f
@@ -47,6 +50,7 @@ struct adapt {
     struct filter_judge judge;
     size_t bricks;
     float noise[BRUME_MAX_TAPS];
+    float apart; /* what halves differ by, squared, over the noise told  */
     struct filter_kinds kinds;
     struct filter_falls fall[2]; /* of detail: as they are, moved */
     float slope[2][FILTER_KINDS];
@@ -148,6 +152,13 @@ struct estimate {
     int from, to; /* frames that it is the mean of               */
 };
 
+/* A block that is judged. */
+struct judged {
+    const struct filter_stats *near, *own; /* of its surroundings, alone    */
+    float move[OTHERS];
+    float noise, level; /* of the middle frame; see level_of               */
+};
+
 /* A frame's variance over its noise, of all channels together, where these are
  * their means. */
 static float level_of(const float mean[3])
@@ -180,16 +191,17 @@ static float above(float square, float variance, float count)
 
 /* The level by the mean of those frames that are as bright as the middle one;
  * `level`, of all of them, is a first guess of it. */
-static float pool(const struct adapt *a, const struct filter_stats *s,
-                  const float move[OTHERS], float level, bool all)
+static float pool(const struct adapt *a, const struct judged *b, float level,
+                  bool all)
 {
+    const struct filter_stats *s = b->near;
     float mean[3], shift[3] = {0}, count = 1.0f;
     for (int k = 0; k < BRUME_MAX_TAPS; k++) {
         int i = filter_other(k);
         if (k == MIDDLE || !(s->count[i] > 0.0f))
             continue;
-        float variance = (a->noise[MIDDLE] + a->noise[k]) * level;
-        if (!all && above(move[i], variance, s->count[i]) > 0.0f)
+        float variance = (b->noise + a->noise[k]) * level;
+        if (!all && above(b->move[i], variance, s->count[i]) > 0.0f)
             continue;
         count += 1.0f;
         for (int c = 0; c < 3; c++)
@@ -206,28 +218,29 @@ static float larger(float a, float b)
 }
 
 /* Of a single frame. */
-static struct estimate judge_one(const struct adapt *a,
-                                 const struct filter_stats *s,
-                                 const float move[OTHERS], int k, float level)
+static struct estimate judge_one(const struct adapt *a, const struct judged *b,
+                                 int k)
 {
+    const struct filter_stats *s = b->near;
     int i = filter_other(k);
-    struct estimate e = {.variance = a->noise[k] * level, .from = k, .to = k};
-    float own = a->noise[MIDDLE] * level, both = own + e.variance;
+    struct estimate e = {
+        .variance = a->noise[k] * b->level, .from = k, .to = k};
+    float both = b->noise * b->level + e.variance;
     float change = s->differ[i] / s->count[i] - MARGIN * both;
-    e.change = sqrtf(larger(change, above(move[i], both, s->count[i])));
+    e.change = sqrtf(larger(change, above(b->move[i], both, s->count[i])));
     return e;
 }
 
 /* Of the mean of those at distance m. */
-static struct estimate judge_two(const struct adapt *a,
-                                 const struct filter_stats *s, int m,
-                                 float level)
+static struct estimate judge_two(const struct adapt *a, const struct judged *b,
+                                 int m)
 {
+    const struct filter_stats *s = b->near;
     struct estimate e = {.from = MIDDLE - m, .to = MIDDLE + m};
     int i = filter_other(e.from), j = filter_other(e.to);
-    float own = a->noise[MIDDLE] * level, square = 0.0f;
-    e.variance = 0.25f * (a->noise[e.from] + a->noise[e.to]) * level;
-    float both = own + e.variance, count = s->pairs[m - 1];
+    float square = 0.0f;
+    e.variance = 0.25f * (a->noise[e.from] + a->noise[e.to]) * b->level;
+    float both = b->noise * b->level + e.variance, count = s->pairs[m - 1];
     for (int c = 0; c < 3; c++) {
         float d = 0.5f *
                   (s->shift[c][i] / s->count[i] + s->shift[c][j] / s->count[j]);
@@ -243,20 +256,17 @@ static float precision(const struct estimate *e)
     return 1.0f / (e->variance + e->change * e->change);
 }
 
-/* Those of one distance: the pair's, or one or two single frames'. `own` are
- * the block's alone. */
-static int list_estimates(const struct adapt *a, const struct filter_stats *s,
-                          const struct filter_stats *own,
-                          const float move[OTHERS], int m, float level,
+/* Those of one distance: the pair's, or one or two single frames'. */
+static int list_estimates(const struct adapt *a, const struct judged *b, int m,
                           struct estimate *out)
 {
     int count = 0;
     for (int k = MIDDLE - m; k <= MIDDLE + m; k += 2 * m)
-        if (own->count[filter_other(k)] > 0.0f)
-            out[count++] = judge_one(a, s, move, k, level);
+        if (b->own->count[filter_other(k)] > 0.0f)
+            out[count++] = judge_one(a, b, k);
     if (count < 2)
         return count;
-    struct estimate pair = judge_two(a, s, m, level);
+    struct estimate pair = judge_two(a, b, m);
     if (precision(&pair) < precision(&out[0]) + precision(&out[1]))
         return 2;
     out[0] = pair;
@@ -299,24 +309,48 @@ static void weigh(const struct estimate *e, int count, float own,
     }
 }
 
+/* How many times the noise that is told the middle frame has by its halves,
+ * where that is more than chance has it: a few photons of much power, which
+ * else would be taken for a change. What they lay lies in few cells, whose
+ * squares are those of the blocks. */
+static float stray(const struct adapt *a, const struct judged *b)
+{
+    const struct filter_stats *s = b->near;
+    float told = b->noise * b->level * s->cells;
+    return told > 0.0f ? 1.0f + larger(s->apart / told - STRAY * a->apart, 0.0f)
+                       : 1.0f;
+}
+
+static void find_level(const struct adapt *a, struct judged *b)
+{
+    b->level = pool(a, b, pool(a, b, 0.0f, true), false);
+}
+
 /* The weights of all frames for one block, of sum 1. */
-static void find_weights(const struct adapt *a, const struct filter_stats *s,
+static void find_weights(const struct adapt *a, const struct filter_stats *near,
                          const struct filter_stats *own,
                          float weight[BRUME_MAX_TAPS])
 {
+    struct judged b = {.near = near, .own = own, .noise = a->noise[MIDDLE]};
     struct estimate e[OTHERS];
-    float move[OTHERS], sum = 0.0f;
+    float sum = 0.0f;
     int count = 0;
     memset(weight, 0, BRUME_MAX_TAPS * sizeof *weight);
-    find_moves(s, move);
-    float level = pool(a, s, move, pool(a, s, move, 0.0f, true), false);
-    if (!(level > 0.0f) || !(a->noise[MIDDLE] > 0.0f)) {
+    find_moves(near, b.move);
+    find_level(a, &b);
+    float times = stray(a, &b), variance = times * b.noise * b.level;
+    if (times > 1.0f) {
+        b.noise *= times;
+        find_level(a, &b);
+        b.noise = b.level > 0.0f ? variance / b.level : 0.0f;
+    }
+    if (!(b.level > 0.0f) || !(b.noise > 0.0f)) {
         weight[MIDDLE] = 1.0f;
         return;
     }
     for (int m = 1; m <= a->judge.reach; m++)
-        count += list_estimates(a, s, own, move, m, level, e + count);
-    weigh(e, count, a->noise[MIDDLE] * level, weight);
+        count += list_estimates(a, &b, m, e + count);
+    weigh(e, count, b.noise * b.level, weight);
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         sum += weight[k];
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
@@ -363,10 +397,11 @@ static bool is_better_moved(const struct adapt *a, const struct filter_desk *d,
                             int i)
 {
     enum { AT = BRUME_MAX_REACH / 2 };
-    float move[OTHERS], noise = larger(a->noise[MIDDLE], 1e-30f);
+    float noise = larger(a->noise[MIDDLE], 1e-30f);
     const struct filter_stats *s = &d->near[0][i];
-    find_moves(s, move);
-    float level = pool(a, s, move, 0.0f, true);
+    struct judged b = {.near = s, .noise = noise};
+    find_moves(s, b.move);
+    float level = pool(a, &b, 0.0f, true);
     float slack = doubt(s, level, noise);
     bool moves = 2.0f * a->fall[0].all[AT] >= a->fall[1].all[AT];
     return differ(a, &d->near[1][i], level, MOVED_PART) <
@@ -589,6 +624,24 @@ static bool take_room(struct adapt *a, int threads,
     return desk && weights;
 }
 
+/* How much the halves of a brick have apart for the noise that is told, on
+ * average; but for what few of them have most of. */
+static float find_apart(const struct adapt *a)
+{
+    double ratio = 1e30;
+    for (int round = 0; round < 2; round++) {
+        double told = 0.0, apart = 0.0;
+        for (size_t i = 0; i < a->bricks; i++) {
+            const struct filter_common *c = &a->judge.common[0][i];
+            double noise = (double)(a->noise[MIDDLE] * level_of(c->mean));
+            told += noise;
+            apart += fmin((double)c->apart, STRAY * ratio * noise);
+        }
+        ratio = told > 0.0 ? apart / told : 0.0;
+    }
+    return (float)ratio;
+}
+
 /* Weights by how blocks differ; then how fast the detail of those frames
  * changes that have weights, and what they may be for that. */
 static void adapt_field(struct adapt *a, int threads)
@@ -597,6 +650,7 @@ static void adapt_field(struct adapt *a, int threads)
     double weight[BRUME_MAX_TAPS];
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         weight[k] = a->judge.has[k] ? 1.0 : 0.0;
+    a->apart = find_apart(a);
     find_falls(a, weight);
     parallel_for(threads, flat->radiance_slots_count, weigh_brick, a, NULL);
     square_weights(a, weight);

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-/* What means may lose of the size of differences in space: 0.01 is 2 % of
+/* What means may lose of the size of differences in space: that is 1 % of
  * their energy. */
-#define MOST_LOST 0.01
+#define MOST_LOST 0.005
 
 enum { TAPS = BRUME_MAX_TAPS, REACH = BRUME_MAX_REACH };
 enum { COLORS = 3, ROW = 8 * COLORS };

@@ -32,6 +32,7 @@ struct filter_common {
     float pair[FILTER_PAIRS], own[BRUME_MAX_TAPS];
     float sum[BRUME_MAX_TAPS], whole[BRUME_MAX_TAPS];
     float noise, whole_noise;
+    float mean[3], apart;           /* sums of its stats, of the middle     */
     uint32_t given;
     bool counts;                    /* it is there in all frames            */
 };

@@ -228,28 +228,49 @@ static double misfit(const struct fall *f, const struct sums *s,
     return along > 0.0 ? all - along * along / square : all;
 }
 
+/* The fall that fits best, and the mean of all by how likely they are. */
 struct found {
-    const struct fall *fall;
+    struct fall best, mean;
     double better; /* than none, in squares of chance errors            */
 };
 
-/* The fall that fits `count` kinds best, with numbers of a brick `free`. */
+static void find_mean(const struct falls *falls,
+                      const double off[TIMES * PARTS], struct found *out)
+{
+    double least = INFINITY, sum = 0.0;
+    struct fall mean = {{0}};
+    for (int i = 0; i < TIMES * PARTS; i++)
+        least = fmin(least, off[i]);
+    for (int i = 0; i < TIMES * PARTS; i++) {
+        double weight = exp(-0.5 * fmin(off[i] - least, 100.0));
+        sum += weight;
+        for (int d = 0; d <= REACH; d++)
+            mean.common[d] += weight * falls->fall[i].common[d];
+    }
+    for (int d = 0; d <= REACH; d++)
+        out->mean.common[d] = mean.common[d] / sum;
+}
+
+/* Of `count` kinds together, with numbers of a brick `free`. */
 static struct found fit(const struct falls *falls, const struct sums *const s[],
                         int count, const struct spread *spread, int free)
 {
-    struct found out = {&falls->still, 0.0};
-    double error[FILTER_KINDS][REACH + 1], still = 0.0;
+    struct found out = {falls->still, falls->still, 0.0};
+    double error[FILTER_KINDS][REACH + 1], still = 0.0, off[TIMES * PARTS];
     for (int n = 0; n < count; n++) {
         find_errors(s[n], spread, free, error[n]);
         still += misfit(&falls->still, s[n], error[n]);
     }
     for (int i = 0; i < TIMES * PARTS; i++) {
-        double off = 0.0;
+        off[i] = 0.0;
         for (int n = 0; n < count; n++)
-            off += misfit(&falls->fall[i], s[n], error[n]);
-        if (still - off > out.better)
-            out = (struct found){&falls->fall[i], still - off};
+            off[i] += misfit(&falls->fall[i], s[n], error[n]);
+        if (still - off[i] > out.better) {
+            out.best = falls->fall[i];
+            out.better = still - off[i];
+        }
     }
+    find_mean(falls, off, &out);
     return out;
 }
 
@@ -260,24 +281,23 @@ static void put_lost(const struct fall *f, float lost[REACH + 1])
 }
 
 /* Its own where that fits much better than the one of all. */
-static const struct fall *fall_of_kind(const struct falls *falls,
-                                       const struct fall *all,
-                                       const struct sums *fine,
-                                       const struct spread *spread)
+static struct fall fall_of_kind(const struct falls *falls,
+                                const struct fall *all, const struct sums *fine,
+                                const struct spread *spread)
 {
     double error[REACH + 1];
     struct found own = fit(falls, &fine, 1, spread, FILTER_BLOCKS - 1);
     find_errors(fine, spread, FILTER_BLOCKS - 1, error);
-    bool apart = misfit(all, fine, error) - misfit(own.fall, fine, error) >
+    bool apart = misfit(all, fine, error) - misfit(&own.best, fine, error) >
                  CERTAIN;
-    return apart ? own.fall : all;
+    return apart ? own.mean : *all;
 }
 
 /* That something changes shows in the bricks as wholes first, which noise hides
  * least; how much of the detail does, in the blocks. */
-static const struct fall *fall_of_all(const struct falls *falls,
-                                      const struct scales kind[FILTER_KINDS],
-                                      const struct spread *spread)
+static struct fall fall_of_all(const struct falls *falls,
+                               const struct scales kind[FILTER_KINDS],
+                               const struct spread *spread)
 {
     const struct sums *fine[FILTER_KINDS], *whole[FILTER_KINDS];
     for (int i = 0; i < FILTER_KINDS; i++) {
@@ -287,7 +307,7 @@ static const struct fall *fall_of_all(const struct falls *falls,
     struct found f = fit(falls, fine, FILTER_KINDS, spread, FILTER_BLOCKS - 1),
                  w = fit(falls, whole, FILTER_KINDS, spread, 1);
     bool changes = f.better > CERTAIN || w.better > CERTAIN;
-    return changes ? f.fall : &falls->still;
+    return changes ? f.mean : falls->still;
 }
 
 void filter_fall_fit(const struct filter_common *brick, size_t bricks,
@@ -303,11 +323,12 @@ void filter_fall_fit(const struct filter_common *brick, size_t bricks,
         if (brick[i].counts)
             add_brick(&brick[i], weight, &spread,
                       &kind[filter_kind(kinds, &brick[i])]);
-    const struct fall *all = fall_of_all(&falls, kind, &spread);
-    put_lost(all, out->all);
+    struct fall all = fall_of_all(&falls, kind, &spread);
+    put_lost(&all, out->all);
     for (int i = 0; i < FILTER_KINDS; i++) {
         const struct sums *fine = &kind[i].fine;
-        put_lost(fall_of_kind(&falls, all, fine, &spread), out->lost[i]);
+        struct fall own = fall_of_kind(&falls, &all, fine, &spread);
+        put_lost(&own, out->lost[i]);
         out->energy[i] = energy_of(fine);
         out->noise[i] = fine->noise;
     }

@@ -40,6 +40,18 @@ static float leave_mean(float block[HALF_BLOCKS])
     return sum;
 }
 
+void filter_half_blocks(const struct flat *flat, size_t brick,
+                        float block[HALF_BLOCKS])
+{
+    float part = (float)flat->half_part;
+    struct halves h;
+    load(flat, brick, &h);
+    for (int i = 0; i < HALF_BLOCKS; i++) {
+        float d = h.first[i] - h.second[i];
+        block[i] = part * (1.0f - part) * d * d;
+    }
+}
+
 void filter_half_find(const struct flat *flat, struct filter_power *out)
 {
     float part = (float)flat->half_part;

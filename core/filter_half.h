@@ -11,6 +11,10 @@ struct filter_power {
     float detail, noise, whole, whole_noise;
 };
 
+/* The squares of what the halves have apart, of each block of a brick, as noise
+ * of all photons. */
+void filter_half_blocks(const struct flat *flat, size_t brick, float block[64]);
+
 /* Of each brick that is there. */
 void filter_half_find(const struct flat *flat, struct filter_power *out);
 #endif

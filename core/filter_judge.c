@@ -153,6 +153,22 @@ static void judge_middle(const struct side *middle, struct filter_stats *out)
     }
 }
 
+/* Before the field that the halves are of is filled anew. */
+static void judge_halves(const struct flat *flat, size_t slot,
+                         const struct side *middle, struct filter_stats *out,
+                         struct filter_common *common)
+{
+    float block[FILTER_BLOCKS] = {0};
+    if (flat->half)
+        filter_half_blocks(flat, slot, block);
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        out[i].apart = middle->there[i] * block[i];
+        common->apart += out[i].apart;
+        for (int c = 0; c < COLORS; c++)
+            common->mean[c] += out[i].mean[c];
+    }
+}
+
 /* ---- bricks ------------------------------------------------------------- */
 
 /* What the halves of each frame tell of the brick at that place. */
@@ -196,6 +212,7 @@ static void judge_brick(void *context, size_t index, int thread)
     if (!side[0].any)
         return;
     judge_middle(&side[0], out);
+    judge_halves(judge->flat, (size_t)slot, &side[0], out, common);
     filter_detail_begin(detail);
     filter_detail_add(detail, FILTER_MIDDLE, side[0].color, side[0].there);
     for (int m = 1; m <= judge->reach; m++) {

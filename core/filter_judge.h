@@ -20,6 +20,7 @@ struct filter_stats {
                                        before and after                     */
     float pairs[BRUME_MAX_REACH];   /* cells that all three have            */
     float mean[3], cells;           /* of the middle frame                  */
+    float apart;                    /* of its halves, see filter_half.h     */
 };
 
 struct filter_judge {

@@ -195,6 +195,55 @@ static void change__is_left_out(void **state)
     }
 }
 
+/* ---- stray photons ------------------------------------------------------ */
+
+/* What is left of light that a cell has in one frame of a still scene, a
+ * hundred times that of others; in both halves of its photons or in one. */
+static double left_of_spark(double half)
+{
+    enum { CELL = 3 * (512 + 73) };
+    struct filter_field field[TAPS];
+    const struct filter_field *list[TAPS];
+    struct filter_scratch scratch = {.desk = NULL};
+    struct flat *flat = NULL;
+    double mean = 0.0;
+    for (int k = 0; k < TAPS; k++) {
+        struct fog fog = {.lamp = 1.0};
+        struct brume_options o = fog_options(5, 900 + (uint32_t)k);
+        o.photons.adaptive = true;
+        o.photons.count = 20000;
+        struct flat *made = fog_trace(fog_scene(&fog), &o, &field[k]);
+        flat_free(k == REACH ? NULL : made);
+        flat = k == REACH ? made : flat;
+        list[k] = &field[k];
+    }
+    for (size_t i = 0; i < field[REACH].count; i++)
+        mean += (double)field[REACH].cells[i] / (double)field[REACH].count;
+    for (int c = 0; c < 3; c++) {
+        field[REACH].cells[CELL + c] += (float)(100.0 * mean);
+        flat->radiance[CELL + c] += (float)(100.0 * mean);
+    }
+    /* The block of cell 73 of the second brick. */
+    flat->half[64] += (float)(300.0 * mean * half);
+    assert_true(filter_adapt(flat, list, REACH, 2, &scratch, truth_error()));
+    double left = (double)flat->radiance[CELL] / (100.0 * mean);
+    filter_scratch_release(&scratch);
+    flat_free(flat);
+    for (int k = 0; k < TAPS; k++)
+        filter_release(&field[k]);
+    return left;
+}
+
+static void stray__photons_are_noise(void **state)
+{
+    (void)state;
+    double both = left_of_spark(0.5), one = left_of_spark(0.0);
+    print_message("in both halves %.3f of it is left, in one %.3f\n", both,
+                  one);
+    assert_true(both > 0.9);
+    assert_true(one < 0.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -202,6 +251,7 @@ int main(void)
         cmocka_unit_test(velocity__is_not_believed),
         cmocka_unit_test(eye__may_move),
         cmocka_unit_test(change__is_left_out),
+        cmocka_unit_test(stray__photons_are_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
