@@ -15,6 +15,7 @@ struct backend_frame {
      * that is done; false: stop. */
     bool (*tick)(void *user, double done);
     void *user;
+    bool raw;                   /* the field is filtered before it is read */
 };
 
 struct backend {
@@ -75,11 +76,11 @@ static inline pixel_job backend_pixels(const struct backend_frame *frame)
     return job;
 }
 
-/* Whether the mean over many fields has their blur, which is taken out. */
+/* Whether what cells blur is taken out of the field. */
 static inline bool backend_sharpens(const struct backend_frame *frame)
 {
     const radiance_lattice *f = &frame->flat->view.field;
-    return frame->stages->passes && !f->ball && !f->refined;
+    return !frame->raw && !f->ball && !f->refined;
 }
 
 extern const struct backend backend_cpu;

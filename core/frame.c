@@ -545,8 +545,8 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
     j->film.lines = j->stages.lines;
     set_share(j);
     load_part(j);
-    struct backend_frame frame = {j->flat,  j->options, &j->stages,
-                                  &j->film, tick,       j};
+    struct backend_frame frame = {j->flat, j->options, &j->stages,   &j->film,
+                                  tick,    j,          !j->rendering};
     j->state = open_backend(j, &j->backend, &frame, err);
     if (!j->state)
         return false;

@@ -373,9 +373,7 @@ static double first_side(const struct flat *f)
 
 static uint64_t field_bytes(const struct layout *l, uint64_t cells)
 {
-    /* Passes keep means beside what they make of them. */
-    uint64_t each = NUMBER_BYTES + (l->passes ? sizeof(float) : 0);
-    return cells * (uint64_t)l->field.numbers * each;
+    return cells * (uint64_t)l->field.numbers * NUMBER_BYTES;
 }
 
 static bool check_options(const struct layout *l, struct brume_error *err)

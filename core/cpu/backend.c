@@ -20,7 +20,6 @@ static void cpu_close(void *state)
     if (s) {
         free(s->count);
         free(s->sum);
-        free(s->means);
     }
     free(s);
 }
@@ -49,8 +48,6 @@ static bool cpu_renew(void *state, struct brume_error *err)
 {
     struct cpu_state *s = state;
     free(s->sum);
-    free(s->means);
-    s->means = NULL;
     s->sum = memory_new(s->frame.flat->radiance_count, sizeof *s->sum, err);
     return s->sum != NULL;
 }

@@ -10,7 +10,6 @@ struct cpu_state {
     int threads;
     track_counters *count;      /* of each thread                          */
     int64_t *sum;               /* of the field's cells, or NULL           */
-    float *means;               /* of its cells, of each pass, or NULL     */
     uint32_t samples;           /* of this call                            */
     atomic_size_t rows_done;
     atomic_bool stop;

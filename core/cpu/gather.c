@@ -5,7 +5,6 @@
 #include "core/physics/half.h"
 #include "core/physics/lit_cell.h"
 #include "core/radiance.h"
-#include "lib/memory.h"
 #include "lib/thread.h"
 
 static void ball_brick(void *context, size_t index, int thread)
@@ -36,22 +35,18 @@ static void sharpen_brick(void *context, size_t index, int thread)
     const struct cpu_state *s = context;
     const flat_scene *v = &s->frame.flat->view;
     for (int i = 0; i < 512 && v->radiance_slots[index] >= 0; i++)
-        radiance_sharpen(v, s->means, index, i, s->frame.flat->radiance);
+        radiance_sharpen(v, (const float *)s->sum, index, i,
+                         s->frame.flat->radiance);
 }
 
-/* Of many fields, whose noise the mean over them averages. */
-static bool sharpen(struct cpu_state *s, struct brume_error *err)
+/* The means stand where the sums were that they are of. */
+static void sharpen(struct cpu_state *s)
 {
     struct flat *flat = s->frame.flat;
-    size_t count = flat->radiance_count;
-    if (!s->means)
-        s->means = memory_new(count, sizeof *s->means, err);
-    if (!s->means)
-        return false;
-    memcpy(s->means, flat->radiance, count * sizeof *s->means);
+    memcpy(s->sum, flat->radiance,
+           (size_t)flat->radiance_count * sizeof *flat->radiance);
     parallel_for(s->threads, (size_t)flat->radiance_slots_count, sharpen_brick,
                  s, &s->stop);
-    return true;
 }
 
 bool cpu_halve(void *state, double unit, float *blocks, struct brume_error *err)
@@ -75,8 +70,8 @@ bool cpu_gather(void *state, double unit, struct brume_error *err)
     atomic_store(&s->stop, false);
     if (unit > 0.0)
         radiance_resolve(flat, s->sum, unit);
-    if (backend_sharpens(&s->frame) && !sharpen(s, err))
-        return false;
+    if (backend_sharpens(&s->frame))
+        sharpen(s);
     bool good = !(unit > 0.0 && f->ball) ||
                 parallel_for(s->threads, bricks, ball_brick, s, &s->stop);
     good = good && (!(f->single || f->lit) ||

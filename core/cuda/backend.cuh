@@ -17,7 +17,6 @@ struct cuda_state {
     const photon_stage *photons;
     const photon_stage *tracer;     /* of photons that are born            */
     float *cells;               /* of the field                            */
-    float *means;               /* of its cells, of each pass              */
     int64_t *sum;               /* of its cells; NULL without photons      */
     photon_source *source;
     photon_totals *total;

@@ -184,14 +184,15 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
     return read_totals(s, stats, err);
 }
 
-/* Where passes have means of their own to sharpen from. */
+/* The means stand where the sums were that they are of. */
 static void sharpen_cells(cuda_state *s, uint64_t count)
 {
+    float *means = reinterpret_cast<float *>(s->sum);
     unsigned bricks = static_cast<unsigned>(
         s->frame.flat->view.radiance_slots_count);
-    cudaMemcpyAsync(s->means, s->cells, count * sizeof *s->cells,
+    cudaMemcpyAsync(means, s->cells, count * sizeof *s->cells,
                     cudaMemcpyDeviceToDevice);
-    sharpen<<<bricks, 512>>>(s->job.scene, s->means, s->cells);
+    sharpen<<<bricks, 512>>>(s->job.scene, means, s->cells);
 }
 
 bool cuda_gather(void *state, double unit, brume_error *err)
@@ -276,7 +277,7 @@ bool cuda_renew(void *state, brume_error *err)
     size_t cells = from->radiance_count * sizeof *from->radiance;
     size_t sums = radiance_sum_bytes(s->frame.flat);
     if (!make_room(&s->field,
-                   device_round(slots) + 2 * device_round(cells) +
+                   device_round(slots) + device_round(cells) +
                        device_round(sums),
                    err))
         return false;
@@ -287,7 +288,6 @@ bool cuda_renew(void *state, brume_error *err)
     to->radiance_slots = static_cast<int32_t *>(at);
     s->cells = static_cast<float *>(device_take(&s->field, cells));
     to->radiance = s->cells;
-    s->means = static_cast<float *>(device_take(&s->field, cells));
     s->sum = static_cast<int64_t *>(device_take(&s->field, sums));
     return device_check(cudaMemcpy(at, from->radiance_slots, slots,
                                    cudaMemcpyHostToDevice),

@@ -233,7 +233,7 @@ static void photon_ball__cells_take_noise_and_nothing_else(void **state)
 static void photon_ball__surfaces_gather_cells(void **state)
 {
     (void)state;
-    compare_cells(hazy_ball(), 6, 0.0625, 3.0);
+    compare_cells(hazy_ball(), 6, 0.0625, 2.5);
 }
 
 /* Soot that is thickest and hottest in its middle, where it glows a thousand
