@@ -3,7 +3,8 @@
 
     tests/bench/bench.py [--budget S] [--jobs N] [--threads N] [--scale F]
                          [--samples N] [--gpu PROGRAM] [--gpu-seconds S]
-                         [--references] [--data DIR] [--out DIR] [NAME...]
+                         [--references] [--resume] [--data DIR] [--out DIR]
+                         [NAME...]
 
 Makes the grids in DIR ($B/bench) where they are not there, and for each scene
 at its published size
@@ -12,18 +13,23 @@ at its published size
     they are not there: by PROGRAM, a brume with CUDA, up to S seconds each, or
     on the processor for half of the budget each;
     pictures by `photon` with a million photons, 4 samples a pixel and --samples
-    (16), by `preset paper` with the published number of photons and 4 samples, and by
-    `path` for half of the budget (60), each from two seeds;
+    (16), by `preset paper` with the published number of photons and 4 samples
+    and 1, and by `path` for half of the budget (60), each from two seeds;
     `brume measure` for the budget, if that is 60 or more, for the plot.
 
 Two seeds against two references tell error, bias and noise apart
-(tests/tools/judge.h). N scenes are measured at a time (1), each with so many
-threads (2), on processors of its own if there are several, in the order of the
-names. --references stops behind these. Leaves bench.json, bench.svg, README.md and what `measure` makes
-in the folder of --out (tests/bench/results). No number there is typed by hand
-but the published.
+(tests/tools/judge.h). N pictures are made at a time (1), each with so many
+threads (2), on processors of its own if there are several, the scenes in the
+order of the names. --references stops behind these. --resume goes on from what
+a call before made with the same program: pictures in DIR, and scenes in
+bench.json. Leaves bench.json, bench.svg, README.md and what `measure` makes
+in the folder of --out (tests/bench/results), with each scene that is done. No
+number there is typed by hand but the published.
 """
 import argparse
+import contextlib
+import fcntl
+import hashlib
 import json
 import math
 import os
@@ -41,7 +47,6 @@ B = os.path.join(ROOT, os.environ.get("B", "build"))
 BRUME = os.environ.get("BRUME", os.path.join(B, "brume"))
 DATA = os.path.join(B, "bench")
 GOALS = [0.03, 0.01]
-GPU = threading.Lock()
 
 
 class Scene:
@@ -105,18 +110,71 @@ def words_of(scene, options):
             f"+H{height}", *scene.switches]
 
 
+def digest():
+    """Of the program that is measured."""
+    with open(BRUME, "rb") as f:
+        return hashlib.sha256(f.read()).hexdigest()[:16]
+
+
+def processor_seconds(words):
+    """Runs a program; what it took of all processors together."""
+    child = subprocess.Popen(words)
+    _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        raise subprocess.CalledProcessError(child.returncode, words)
+    return used.ru_utime + used.ru_stime
+
+
 def run(words, path):
     """One picture: its numbers."""
     stats = path + ".json"
-    subprocess.run(words + ["+O" + path, "--stats", stats, "-V"], check=True)
+    cpu = processor_seconds(words + ["+O" + path, "--stats", stats, "-V"])
     with open(stats) as f:
         frame = json.load(f)["frames"][0]
     s, photons = frame["seconds"], frame.get("photons", {})
     return {"prepare": s["prepare"], "photons": photons.get("seconds", 0),
-            "render": s["render"], "spp": frame["spp"],
+            "render": s["render"], "spp": frame["spp"], "cpu": cpu,
             "seconds": s["prepare"] + photons.get("seconds", 0) + s["render"],
             "cells": photons.get("cells", 0),
             "open": photons.get("books", {}).get("rest", 0)}
+
+
+def run_once(options, words, path):
+    """The same, or what it told a call before."""
+    kept = path + ".run"
+    asked = [digest(), *words[words.index(BRUME):]]
+    if options.resume and os.path.exists(kept):
+        with open(kept) as f:
+            told = json.load(f)
+        if told["asked"] == asked:
+            return told["told"]
+    told = run(words, path)
+    with open(kept, "w") as f:
+        json.dump({"asked": asked, "told": told}, f)
+    return told
+
+
+@contextlib.contextmanager
+def alone(folder):
+    """For one at a time, of all processes that make references there."""
+    with open(os.path.join(folder, "lock"), "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def make_reference(scene, options, path, seed):
+    words = words_of(scene, options) + ["--integrator", "path", "--spp",
+                                        "65536", "--seed", str(seed)]
+    part = path[:-4] + "-part.exr"
+    if options.gpu:
+        words = [options.gpu, *words, "--backend", "cuda", "--time",
+                 str(options.gpu_seconds)]
+    else:
+        words = [BRUME, *words, "--backend", "cpu", "--threads",
+                 str(options.threads), "--time", str(options.budget / 2)]
+    run(words, part)
+    os.rename(part, path)
 
 
 def references(scene, options):
@@ -127,29 +185,35 @@ def references(scene, options):
     paths = [os.path.join(folder, f"{scene.name}-{width}x{height}-{i}.exr")
              for i in (1, 2)]
     for i, path in enumerate(paths):
-        if os.path.exists(path):
-            continue
-        words = words_of(scene, options) + [
-            "--integrator", "path", "--spp", "65536", "--seed", str(11 + i)]
-        if options.gpu:
-            with GPU:
-                run([options.gpu, *words, "--backend", "cuda", "--time",
-                     str(options.gpu_seconds)], path)
-        else:
-            run([BRUME, *words, "--threads", str(options.threads), "--time",
-                 str(options.budget / 2)], path)
+        with alone(folder) if options.gpu else contextlib.nullcontext():
+            if not os.path.exists(path):
+                make_reference(scene, options, path, 11 + i)
     return paths
 
 
-def draw(scene, options, cores, label, *switches):
-    """Two seeds: the quicker one's numbers, and the pictures."""
-    paths = [os.path.join(options.data, f"{scene.name}-{label}-{seed}.exr")
-             for seed in (1, 2)]
-    runs = [run([*cores, BRUME, *words_of(scene, options), "--threads",
-                 str(options.threads), *switches, "--seed", str(seed)], path)
-            for seed, path in zip((1, 2), paths)]
+def picture_of(scene, options, label, seed):
+    return os.path.join(options.data, f"{scene.name}-{label}-{seed}.exr")
+
+
+def draw_seed(scene, options, cores, label, seed, *switches):
+    return run_once(options, [*cores, BRUME, *words_of(scene, options),
+                              "--backend", "cpu", "--threads",
+                              str(options.threads), *switches, "--seed",
+                              str(seed)],
+                    picture_of(scene, options, label, seed))
+
+
+def drawn_of(scene, options, label, switches, runs):
+    """Of two seeds the quicker one's numbers, and the pictures."""
+    paths = [picture_of(scene, options, label, seed) for seed in (1, 2)]
     return dict(min(runs, key=lambda r: r["seconds"]), pictures=paths,
-                switches=" ".join(switches))
+                cpu=min(r["cpu"] for r in runs), switches=" ".join(switches))
+
+
+def draw(scene, options, cores, label, *switches):
+    return drawn_of(scene, options, label, switches,
+                    [draw_seed(scene, options, cores, label, seed, *switches)
+                     for seed in (1, 2)])
 
 
 def judge(drawn, true):
@@ -174,33 +238,67 @@ def plot(scene, options, true, cores):
     return re.findall(r"^for +(\d+) %: (.*)$", done.stdout, re.M)
 
 
-def draw_all(scene, options, pin):
+def kinds_of(scene, options):
+    """What is drawn of a scene: labels and switches."""
     photon = ["--integrator", "photon", "--photons", "1000000", "--spp"]
-    return {"few": draw(scene, options, pin, "few", *photon, "4"),
-            "many": draw(scene, options, pin, "many", *photon,
-                         str(options.samples)),
-            "paper": draw(scene, options, pin, "paper", "--integrator",
-                          "photon", "--preset", "paper", "--photons",
-                          str(scene.photons), "--spp", "4"),
-            "path": draw(scene, options, pin, "path", "--integrator", "path",
-                         "--spp", "65536", "--time", str(options.budget / 2))}
+    paper = ["--integrator", "photon", "--preset", "paper", "--photons",
+             str(scene.photons), "--spp"]
+    return {"many": [*photon, str(options.samples)], "few": [*photon, "4"],
+            "paper": [*paper, "4"],
+            "path": ["--integrator", "path", "--spp", "65536", "--time",
+                     str(options.budget / 2)],
+            "rays": [*paper, "1"]}
 
 
-def measure(scene, cores, options):
-    """With references that a GPU makes meanwhile."""
-    pin = ["taskset", "-c", cores] if cores else []
-    with ThreadPoolExecutor(1) as beside:
+class Pool:
+    """So many pictures at a time, each on processors of its own."""
+
+    def __init__(self, options):
+        self.free = queue.Queue()
+        for i in range(options.jobs):
+            first = i * options.threads
+            self.free.put(["taskset", "-c",
+                           f"{first}-{first + options.threads - 1}"]
+                          if options.jobs > 1 else [])
+        self.workers = ThreadPoolExecutor(options.jobs)
+
+    def submit(self, work, *arguments):
+        def with_cores():
+            cores = self.free.get()
+            try:
+                return work(cores, *arguments)
+            finally:
+                self.free.put(cores)
+        return self.workers.submit(with_cores)
+
+
+def ask(scene, options, pool, beside):
+    """Futures of all that a scene needs."""
+    if options.gpu:
         true = beside.submit(references, scene, options)
-        if options.references or not options.gpu:
-            true.result()
-        drawn = {} if options.references else draw_all(scene, options, pin)
-        true = true.result()
+    else:
+        true = pool.submit(lambda cores: references(scene, options))
+    if options.references:
+        return true, {}
+    return true, {
+        label: [pool.submit(lambda cores, label=label, switches=switches,
+                            seed=seed: draw_seed(scene, options, cores, label,
+                                                 seed, *switches))
+                for seed in (1, 2)]
+        for label, switches in kinds_of(scene, options).items()}
+
+
+def measure(scene, options, pool, asked):
+    true, runs = asked[0].result(), asked[1]
     if options.references:
         return None
     r = {"name": scene.name, "what": scene.what, "size": size_of(scene, options),
-         "published": scene.published}
-    r.update({label: judge(d, true) for label, d in drawn.items()})
-    r["advice"] = plot(scene, options, true, pin)
+         "published": scene.published, "program": digest()}
+    for label, switches in kinds_of(scene, options).items():
+        r[label] = judge(drawn_of(scene, options, label, switches,
+                                  [x.result() for x in runs[label]]), true)
+    r["advice"] = pool.submit(
+        lambda cores: plot(scene, options, true, cores)).result()
     print(json.dumps(r), flush=True)
     return r
 
@@ -268,13 +366,15 @@ def error_table(results):
 
 
 def time_table(results):
-    yield ("| scene | paper, GTX 280 | `preset paper` | `photon`, 4 samples "
-           "| many | " +
+    yield ("| scene | paper, GTX 280 | `preset paper`, 1 sample "
+           "| half of its processor seconds | 4 samples "
+           "| `photon`, 4 samples | many | " +
            " | ".join(f"`path` for {100 * g:g} % | `photon` | times"
                       for g in GOALS) + " |")
-    yield "|---" * (5 + 3 * len(GOALS)) + "|"
+    yield "|---" * (7 + 3 * len(GOALS)) + "|"
     for r in results:
-        cells = [r["name"], f"{r['published']} s", seconds(r["paper"]["seconds"]),
+        cells = [r["name"], f"{r['published']} s", seconds(r["rays"]["seconds"]),
+                 seconds(r["rays"]["cpu"] / 2), seconds(r["paper"]["seconds"]),
                  seconds(r["few"]["seconds"]), seconds(r["many"]["seconds"])]
         for goal in GOALS:
             path, photon = seconds_for(r, goal)
@@ -285,7 +385,7 @@ def time_table(results):
 
 def gpu_name():
     said = subprocess.run(["nvidia-smi", "-L"], capture_output=True, text=True)
-    return re.sub(r"^GPU \\d+: ", "", said.stdout.split(" (")[0]).strip()
+    return re.sub(r"^GPU \d+: ", "", said.stdout.split(" (")[0]).strip()
 
 
 def machine(options):
@@ -313,9 +413,9 @@ def page(data):
            ("their published sizes" if m["scale"] == 1 else
             f"{m['scale']:g} of their width and height") +
            f", by {m['version']} on {m['threads']} threads of "
-           f"{m['processor']}, {m['jobs']} scenes at a time. `photon` has a "
+           f"{m['processor']}, {m['jobs']} pictures at a time. `photon` has a "
            f"million photons and 4 or many ({m['samples']}) samples a pixel, "
-           "`preset paper` the published number and 4"
+           "`preset paper` the published number and 4 or 1"
            f"{', the references are of ' + m['gpu'] if m['gpu'] else ''}. "
            "Errors are relRMSE without the noise of the references; "
            "the bias is without the noise of the pictures too, and in brackets "
@@ -400,28 +500,36 @@ def write(options, data):
         f.write("\n".join(page(data)) + "\n")
 
 
+def kept_of(options):
+    """Scenes that a call before measured, of the same program."""
+    path = os.path.join(options.out, "bench.json")
+    if not options.resume or not os.path.exists(path):
+        return []
+    with open(path) as f:
+        return [r for r in json.load(f)["results"]
+                if r.get("program") == digest()]
+
+
 def measure_all(scenes, options):
-    free = queue.Queue()
-    for i in range(options.jobs):
-        first = i * options.threads
-        free.put(f"{first}-{first + options.threads - 1}"
-                 if options.jobs > 1 else None)
-    results = []
+    pool, beside = Pool(options), ThreadPoolExecutor(1)
+    results, lock = kept_of(options), threading.Lock()
+    done = [r["name"] for r in results]
+    order = [s.name for s in SCENES]
+    asked = {s.name: ask(s, options, pool, beside)
+             for s in sorted(scenes, key=lambda s: options.names.index(s.name)
+                             if options.names else 0) if s.name not in done}
 
     def work(scene):
-        cores = free.get()
-        try:
-            r = measure(scene, cores, options)
-        finally:
-            free.put(cores)
-        if r:
+        r = measure(scene, options, pool, asked[scene.name])
+        with lock:
+            if not r:
+                return
             results.append(r)
-            results.sort(key=lambda r: [s.name for s in scenes].index(r["name"]))
+            results.sort(key=lambda r: order.index(r["name"]))
             write(options, {"machine": machine(options), "results": results})
 
-    with ThreadPoolExecutor(options.jobs) as pool:
-        list(pool.map(work, sorted(scenes, key=lambda s: options.names.index(
-            s.name) if options.names else 0)))
+    with ThreadPoolExecutor(len(asked) or 1) as waiting:
+        list(waiting.map(work, [s for s in scenes if s.name in asked]))
 
 
 def main():
@@ -434,6 +542,7 @@ def main():
     parser.add_argument("--gpu")
     parser.add_argument("--gpu-seconds", type=float, default=15)
     parser.add_argument("--references", action="store_true")
+    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--data", default=DATA)
     parser.add_argument("--out", default=os.path.join(HERE, "results"))
     parser.add_argument("names", nargs="*")

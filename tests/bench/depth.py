@@ -40,7 +40,7 @@ def main():
     parser.add_argument("--photons", type=int, default=1000000)
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
-    options.threads, options.gpu = 2, None
+    options.threads, options.gpu, options.resume = 2, None, False
     bench.make_grids(options.data)
     print("| scene | cells | smallest side | number | bytes | photons "
           "| error | noise | mean off |\n" + "|---" * 9 + "|")

@@ -7,7 +7,8 @@
  *   compare judge REF REF2 A B
  *       Of two independent pictures made alike and two independent references:
  *       what is theirs of the difference and what is noise, as JSON; see
- *       judge.h.
+ *       judge.h. References may be larger by a whole factor, as samples lie
+ *       evenly in a pixel: means of their pixels are those of the picture.
  *   compare bias REF SPP RUN_SPP RUN...
  *       Are the runs, independent and of RUN_SPP samples a pixel, pictures of
  *       what REF, of SPP samples, shows? Prints the worst tile's t and the
@@ -127,14 +128,35 @@ static int print_relrmse(const char *path, const char *path_ref)
     return 0;
 }
 
+/* Means over squares of n x n pixels. */
+static void shrink(struct exr_picture *p, int n)
+{
+    int width = p->width / n, height = p->height / n;
+    for (size_t c = 0; c < p->channels; c++)
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                double sum = 0;
+                for (int i = 0; i < n * n; i++)
+                    sum +=
+                        p->plane[c][(size_t)(n * y + i / n) * (size_t)p->width +
+                                    (size_t)(n * x + i % n)];
+                p->plane[c][(size_t)y * (size_t)width + (size_t)x] =
+                    (float)(sum / (n * n));
+            }
+    p->width = width;
+    p->height = height;
+}
+
 static int print_judged(char *const path[4])
 {
     struct exr_picture *p[4];
     struct judged_plane plane[4];
     struct judged out;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 3; i >= 0; i--) {
         p[i] = load(path[i]);
-        need_same_size(p[i], p[0]);
+        if (i < 2 && p[i]->width % p[3]->width == 0)
+            shrink(p[i], p[i]->width / p[3]->width);
+        need_same_size(p[i], p[3]);
         plane[i] = (struct judged_plane){
             p[i]->width,
             p[i]->height,
