@@ -370,6 +370,7 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
     p->p_dir = pdf;
     p->after = hit_start(0.0f);
     p->straight = 0;
+    p->depth = -1.0f;
     p->spread -= p->spread > 0;
     p->stretch.on = 0;
 }

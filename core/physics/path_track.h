@@ -35,6 +35,8 @@ typedef struct {
     float along;            /* where on the eye's line single.h looks      */
     int32_t spread;         /* so many more vertices take numbers that fill
                                their space evenly over a pixel's samples   */
+    float depth;            /* optical depth that is left of the flight, which
+                               goes on behind boundaries; < 0: none is yet */
     float boost;            /* scattering events of this segment are drawn
                                so many times as often, and weigh so much less */
     path_stretch stretch;
@@ -86,10 +88,14 @@ HD void path_pair_floats(path_state *p, int what, float *u, float *v)
     *v = sobol_float(x[1]);
 }
 
-/* Optical depth of the first flight from a vertex. */
+/* Optical depth of the flight from a vertex, or what boundaries behind it have
+ * left of that. A vertex has one such number: another flight by it would know
+ * that the first had not ended. */
 HD float path_depth(path_state *p)
 {
     uint32_t x[2];
+    if (p->depth >= 0.0f)
+        return p->depth;
     if (p->spread == 0)
         return rng_optical_depth(&p->random);
     path_pair(p, PATH_PAIR_FLIGHT, x);
@@ -319,6 +325,7 @@ HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
                 return event;
         }
     } while (walk_next(s, w));
+    p->depth = tau;
     return PATH_THROUGH;
 }
 

@@ -11,7 +11,11 @@
  * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
  * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
  * BACKEND=cuda draws the pictures on a GPU, PIXELS=512 makes them larger than
- * 16 x 16. */
+ * 16 x 16.
+ *
+ * Walks leave out the path through the whole scene, its boundaries above all.
+ * So a picture that was given up counts too, by the same z, with whatever error
+ * it has, if that is told well (KNOWN_ERROR). */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -24,7 +28,13 @@ struct result {
     double mean, error, z, seconds;
     int spp;
     bool reached;
+    double picture_z; /* of the picture too that a walk is in place of;
+                               0: none                                     */
 };
+
+/* Of the truth: batches whose error is larger have too few events in them to
+ * be distributed evenly. */
+#define KNOWN_ERROR 0.05
 
 static struct truth_row *new_row(struct truth_row *rows, int *count)
 {
@@ -114,7 +124,7 @@ static void add_t5(struct truth_row *rows, int *count)
             r->p[0] = truth_t5[i][0];
             r->p[1] = truth_t5_r[k];
             plan_space(r, r->p[0], r->p[1]);
-            r->sample = i == 0 && k == 2;
+            r->sample = (i == 0 && k == 2) || (i == 4 && k == 1);
         }
 }
 
@@ -317,8 +327,12 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
                         : seconds,
                can_walk, &out);
     if (can_walk && !out.reached) {
+        bool known = !row->walked && out.error < KNOWN_ERROR * row->truth;
+        out.picture_z = known ? out.z : 0.0;
         row->walked = true;
         run_so(row, &frame, seconds, false, &out);
+    } else if (!row->walked) {
+        out.picture_z = out.z;
     }
     out.seconds = cpu_seconds() - start;
     return out;
@@ -347,19 +361,25 @@ static bool asked(const char *name, int count, char **words)
     return count == 0;
 }
 
+static bool holds(const struct result *r)
+{
+    return fabs(r->z) < 4.0 && fabs(r->picture_z) < 4.0;
+}
+
 static void report(const struct truth_row *row, const struct result *r,
                    bool table)
 {
     double relative = row->truth == 0.0 ? 0.0 : r->error / row->truth;
     if (table)
-        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %.1f | %s%s |\n", row->name,
-               row->truth, r->mean, relative, r->z, r->seconds,
-               row->walked ? "walk" : "picture", r->reached ? "" : ", short");
+        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %+.2f | %.1f | %s%s |\n",
+               row->name, row->truth, r->mean, relative, r->z, r->picture_z,
+               r->seconds, row->walked ? "walk" : "picture",
+               r->reached ? "" : ", short");
     else
-        printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, %.1f s, "
-               "%s%s\n",
-               fabs(r->z) < 4.0 ? "" : "not ", row->name, r->mean, row->truth,
-               relative, r->z, r->seconds, row->walked ? "walk" : "picture",
+        printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, "
+               "of its picture %+.2f, %.1f s, %s%s\n",
+               holds(r) ? "" : "not ", row->name, r->mean, row->truth, relative,
+               r->z, r->picture_z, r->seconds, row->walked ? "walk" : "picture",
                r->reached ? "" : ", short");
     fflush(stdout);
 }
@@ -372,8 +392,9 @@ int main(int argc, char **argv)
     bool sample = argc < 2;
     double seconds = setting("SECONDS_A_ROW", 60.0);
     if (table)
-        printf("| row | truth | mean | SE / truth | z | CPU s | by |\n"
-               "| --- | --- | --- | --- | --- | --- | --- |\n");
+        printf("| row | truth | mean | SE / truth | z | z of its picture | "
+               "CPU s | by |\n"
+               "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
         if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
             continue;
@@ -381,7 +402,7 @@ int main(int argc, char **argv)
             continue;
         struct result r = run_row(&rows[i], first_frame(i), seconds);
         report(&rows[i], &r, table);
-        bad += !(fabs(r.z) < 4.0) || (sample && !r.reached);
+        bad += !holds(&r) || (sample && !r.reached);
     }
     return bad > 0;
 }
