@@ -14,6 +14,7 @@
  * what is emitted where they pass. */
 #ifndef CORE_PHYSICS_BALL_CELL_H
 #define CORE_PHYSICS_BALL_CELL_H
+#include "core/physics/ball_table.h"
 #include "core/physics/inside.h"
 #include "core/physics/path.h"
 
@@ -31,18 +32,11 @@ typedef struct {
     float thickness;
 } ball_media;
 
-/* The k-th offset, of a ball of radius 1: even in volume and direction, by
- * multiples of powers of the generalised golden ratio, x^4 = x + 1 [Roberts
- * 2018]. */
+/* The k-th of them, in a ball of radius 1. */
 HD vec3 ball_offset(int k)
 {
-    float u[3];
-    const float step[3] = {0.819172513f, 0.671043607f, 0.549700478f};
-    for (int i = 0; i < 3; i++) {
-        float x = 0.5f + step[i] * (float)(k + 1);
-        u[i] = x - (float)hd_floor(x);
-    }
-    return vec3_scale(warp_sphere(u[0], u[1]), fm_pow(u[2], 1.0f / 3.0f));
+    return vec3_make(ball_point[3 * k], ball_point[3 * k + 1],
+                     ball_point[3 * k + 2]);
 }
 
 HD void ball_add(const flat_scene *s, ball_media *b, int32_t medium, vec3 x)
@@ -141,7 +135,35 @@ typedef struct {
     vec3 centre;
     float radius, step;
     int parts, lo[3], hi[3];    /* parts that it may touch: lo to hi - 1   */
+    float near[2], far[2];  /* squares of distances of middles, of a part and
+                               of its eighths: no farther off, all of it is in
+                               the ball; no nearer, nothing                */
 } ball_box;
+
+/* No less than what an affine map makes of a length of 1. */
+HD float ball_stretch(const affine *map)
+{
+    const float *m = map->m;
+    float rows = 0.0f, columns = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        rows = hd_max(rows, fabsf(m[4 * i]) + fabsf(m[4 * i + 1]) +
+                            fabsf(m[4 * i + 2]));
+        columns = hd_max(columns, fabsf(m[i]) + fabsf(m[4 + i]) +
+                                  fabsf(m[8 + i]));
+    }
+    return sqrtf(rows * columns);
+}
+
+/* From where on ball_share is 1 and 0, with room for rounding. */
+HD void ball_limit(ball_box *b, int i, float size, float stretch)
+{
+    float half = 0.501f * size * stretch, near = b->radius - half;
+    b->near[i] = near > 0.0f ? near * near : -1.0f;
+    b->far[i] = (b->radius + half) * (b->radius + half);
+}
+
+/* Of a part's diagonal. */
+#define BALL_CORNER 1.7320508f
 
 HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
 {
@@ -156,6 +178,9 @@ HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
     b.radius = r;
     b.parts = least < 1.0f ? 4 : least < 2.0f ? 2 : 1;
     b.step = 1.0f / (float)b.parts;
+    float stretch = ball_stretch(&g->from_index);
+    ball_limit(&b, 0, BALL_CORNER * b.step, stretch);
+    ball_limit(&b, 1, 0.5f * b.step, stretch);
     for (int i = 0; i < 3; i++) {
         float a = vec3_get(at, i), h = vec3_get(half, i) + 0.5f;
         b.lo[i] = hd_floor((a - h) * (float)b.parts);
@@ -164,11 +189,12 @@ HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
     return b;
 }
 
-/* Share of a cube around q, of that size in voxels, that lies in the ball: as
- * if the ball's face were flat there, and the cube turned toward it. */
-HD float ball_share(const flat_glow *g, const ball_box *b, vec3 q, float size)
+/* Share of a cube, its middle `off` from the ball's, of that size in voxels,
+ * that lies in the ball: as if the ball's face were flat there, and the cube
+ * turned toward it. */
+HD float ball_share(const flat_glow *g, const ball_box *b, vec3 off,
+                    float size)
 {
-    vec3 off = vec3_sub(affine_point(&g->from_index, q), b->centre);
     float distance = vec3_length(off);
     float wide = vec3_length(affine_vector(&g->to_index, off));
     float inside = (b->radius - distance) * wide;
@@ -177,17 +203,27 @@ HD float ball_share(const flat_glow *g, const ball_box *b, vec3 q, float size)
     return hd_min(hd_max(0.5f + inside / (distance * size), 0.0f), 1.0f);
 }
 
+/* The same around q, where most cubes' distance tells it. */
+HD float ball_share_at(const flat_glow *g, const ball_box *b, vec3 q, int i,
+                       float size)
+{
+    vec3 off = vec3_sub(affine_point(&g->from_index, q), b->centre);
+    float square = vec3_dot(off, off);
+    if (square >= b->far[i])
+        return 0.0f;
+    return square <= b->near[i] ? 1.0f : ball_share(g, b, off, size);
+}
+
 /* The same of a part of a voxel, by its eighths where it is at the face. */
 HD float ball_part(const flat_glow *g, const ball_box *b, vec3 q)
 {
-    const float corner = 1.7320508f;
-    float whole = ball_share(g, b, q, corner * b->step), sum = 0.0f;
+    float whole = ball_share_at(g, b, q, 0, BALL_CORNER * b->step), sum = 0.0f;
     if (whole <= 0.0f || whole >= 1.0f)
         return whole;
     for (int i = 0; i < 8; i++) {
         float h = 0.25f * b->step;
         vec3 off = vec3_make(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h);
-        sum += ball_share(g, b, vec3_add(q, off), 0.5f * b->step);
+        sum += ball_share_at(g, b, vec3_add(q, off), 1, 0.5f * b->step);
     }
     return 0.125f * sum;
 }
@@ -231,17 +267,40 @@ HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x)
     return sum;
 }
 
+/* The numbers of cell i of a brick that is there. */
+HD float *ball_cell_numbers(const flat_scene *s, uint64_t brick, int i,
+                            float *cells)
+{
+    uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
+    return cells + cell * (uint64_t)s->field.numbers;
+}
+
+HD bool ball_has_events(const float *numbers)
+{
+    return numbers[0] != 0.0f || numbers[1] != 0.0f || numbers[2] != 0.0f;
+}
+
+HD bool ball_has_births(const radiance_lattice *f, const float *numbers)
+{
+    return f->births && numbers[f->births] != 0.0f;
+}
+
+/* Whether something is in its ball. */
+HD bool ball_cell_has(const flat_scene *s, uint64_t brick, int i, float *cells)
+{
+    const float *numbers = ball_cell_numbers(s, brick, i, cells);
+    return ball_has_events(numbers) || ball_has_births(&s->field, numbers);
+}
+
 /* Turns what is in the ball of cell i of a brick that is there, over its
  * volume: events into those per thickness, births into their number over that
  * which is to be expected. */
 HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells)
 {
     const radiance_lattice *f = &s->field;
-    uint64_t cell = (uint64_t)s->radiance_slots[brick] * 512u + (uint64_t)i;
-    float *out = cells + cell * (uint64_t)f->numbers;
-    bool events = out[0] != 0.0f || out[1] != 0.0f || out[2] != 0.0f;
-    bool births = f->births && out[f->births] != 0.0f;
-    if (!events && !births)
+    float *out = ball_cell_numbers(s, brick, i, cells);
+    bool births = ball_has_births(f, out);
+    if (!ball_has_events(out) && !births)
         return;
     vec3 x = radiance_middle(s, brick, i);
     ball_media b = ball_media_at(s, x, true);

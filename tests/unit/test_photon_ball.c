@@ -406,9 +406,82 @@ static void photon_ball__finds_what_is_thick(void **state)
     brume_scene_free(s);
 }
 
+/* What the table of a ball's points is made of. */
+static vec3 point_of_ball(int k)
+{
+    const float step[3] = {0.819172513f, 0.671043607f, 0.549700478f};
+    float u[3];
+    for (int i = 0; i < 3; i++) {
+        float x = 0.5f + step[i] * (float)(k + 1);
+        u[i] = x - floorf(x);
+    }
+    return vec3_scale(warp_sphere(u[0], u[1]), fm_pow(u[2], 1.0f / 3.0f));
+}
+
+static void photon_ball__points_are_the_tables(void **state)
+{
+    (void)state;
+    for (int k = 0; k < BALL_MOST_PAIRS; k++) {
+        vec3 a = point_of_ball(k), b = ball_offset(k);
+        if (memcmp(&a, &b, sizeof a) != 0)
+            fail_msg("point %d: {%.9gf, %.9gf, %.9gf}", k, (double)a.x,
+                     (double)a.y, (double)a.z);
+    }
+}
+
+/* A list whose voxels are turned, and up to twice as long as wide. */
+static void turn_voxels(flat_glow *g, rng *r)
+{
+    vec3 x = warp_sphere(rng_float(r), rng_float(r));
+    warp_basis b = warp_frame(x);
+    vec3 axis[3] = {vec3_scale(b.x, 0.5f + rng_float(r)),
+                    vec3_scale(b.y, 0.5f + rng_float(r)),
+                    vec3_scale(x, 0.5f + rng_float(r))};
+    for (int i = 0; i < 3; i++) {
+        float square = vec3_dot(axis[i], axis[i]);
+        for (int k = 0; k < 3; k++) {
+            g->from_index.m[4 * k + i] = vec3_get(axis[i], k);
+            g->to_index.m[4 * i + k] = vec3_get(axis[i], k) / square;
+        }
+        g->from_index.m[4 * i + 3] = g->to_index.m[4 * i + 3] = 0.0f;
+    }
+}
+
+/* Shares that distances tell are those that are computed. */
+static void photon_ball__distances_tell_shares(void **state)
+{
+    (void)state;
+    int told = 0;
+    for (int n = 0; n < 20000; n++) {
+        rng r = rng_make(2, 0, 0, (uint64_t)n);
+        flat_glow g = {0};
+        turn_voxels(&g, &r);
+        ball_box b = ball_box_make(&g, vec3_make(rng_float(&r), 0.3f, -2.0f),
+                                   0.2f + 5.0f * rng_float(&r));
+        int i = n & 1;
+        float size = i ? 0.5f * b.step : BALL_CORNER * b.step;
+        float q[3];
+        for (int k = 0; k < 3; k++)
+            q[k] = ((float)b.lo[k] + rng_float(&r) *
+                    (float)(b.hi[k] - b.lo[k])) * b.step;
+        vec3 at = vec3_make(q[0], q[1], q[2]);
+        vec3 off = vec3_sub(affine_point(&g.from_index, at), b.centre);
+        float square = vec3_dot(off, off);
+        float share = ball_share(&g, &b, off, size);
+        told += square >= b.far[i] || square <= b.near[i];
+        if (memcmp(&share, &(float){ball_share_at(&g, &b, at, i, size)},
+                   sizeof share) != 0)
+            fail_msg("%d: %.9g of a ball of %g, %g off", n, (double)share,
+                     (double)b.radius, sqrt((double)square));
+    }
+    assert_true(told > 8000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photon_ball__points_are_the_tables),
+        cmocka_unit_test(photon_ball__distances_tell_shares),
         cmocka_unit_test(photon_ball__finds_what_is_thick),
         cmocka_unit_test(photon_ball__births_light_a_sphere),
         cmocka_unit_test(photon_ball__light_stays_where_media_are_thick),
