@@ -530,6 +530,7 @@ struct brume_stats {
     int worker;                     /* of a film, from 0: its device       */
     /* Of large arrays, to that device, since the worker's last picture. */
     uint64_t uploaded;
+    uint64_t allocated;             /* bytes of its memory, anew           */
     struct brume_photon_stats photons;
 };
 

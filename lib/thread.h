@@ -5,7 +5,12 @@
  * its index, and nothing may depend on the thread but scratch memory. */
 #ifndef LIB_THREAD_H
 #define LIB_THREAD_H
+#ifdef __cplusplus
+#include <atomic>
+using std::atomic_bool;
+#else
 #include <stdatomic.h>
+#endif
 #include <stdbool.h>
 #include <stddef.h>
 

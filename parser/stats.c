@@ -60,6 +60,7 @@ static bool put_counts(struct json *json, const struct brume_stats *s)
            json_put_count(json, "trees_kept", s->trees_kept) &&
            json_put_count(json, "device", (uint64_t)s->worker) &&
            json_put_count(json, "uploaded", s->uploaded) &&
+           json_put_count(json, "allocated", s->allocated) &&
            json_put_count(json, "bytes", s->bytes);
 }
 

@@ -50,6 +50,7 @@ void cuda_close(void *state)
         device_arena_free(&s->field);
         device_arena_free(&s->kd.arena);
         device_clock_free(&s->clock);
+        upload_free(&s->to);
     }
     delete s;
 }
@@ -77,17 +78,18 @@ size_t frame_bytes(const cuda_state *s)
     return bytes;
 }
 
-/* NULL with err set, where there is something to upload. */
+/* NULL with err set. The field has nothing yet. */
 const void *upload_array(cuda_state *s, const void *from, size_t bytes,
-                         const char *what, brume_error *err)
+                         brume_error *err)
 {
     if (stays(s, from, bytes))
         return resident_take(s->kept, from, bytes, err);
     void *to = device_take(&s->arena, bytes);
-    return device_check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice),
-                        what, err)
-               ? to
-               : nullptr;
+    bool good = from == s->frame.flat->view.radiance
+                    ? device_check(cudaMemsetAsync(to, 0, bytes),
+                                   "clearing the field", err)
+                    : upload_put(&s->to, to, from, bytes, err);
+    return good ? to : nullptr;
 }
 
 /* Copies every array of the scene and points the device's view at them. */
@@ -96,13 +98,12 @@ bool upload(cuda_state *s, brume_error *err)
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
     s->job.scene = *from;
-    resident_begin(s->kept);
+    resident_begin(s->kept, &s->to);
     device_clock_mark(&s->clock, 0);
 #define X(type, name)                                                          \
     if (good) {                                                                \
         const void *to = upload_array(s, from->name,                           \
-                                      from->name##_count * sizeof(type),       \
-                                      "uploading " #name, err);                \
+                                      from->name##_count * sizeof(type), err); \
         good = to != nullptr;                                                  \
         s->job.scene.name = static_cast<const type *>(to);                     \
     }
@@ -110,7 +111,8 @@ bool upload(cuda_state *s, brume_error *err)
 #undef X
     resident_end(s->kept);
     s->cells = const_cast<float *>(s->job.scene.radiance);
-    return good && device_clock_stop(&s->clock, 1, "the upload", err) &&
+    return good && upload_flush(&s->to, err) &&
+           device_clock_stop(&s->clock, 1, "the upload", err) &&
            device_clock_add(&s->clock, 0, &s->spent.upload);
 }
 
@@ -163,6 +165,17 @@ bool open_device(cuda_state *s, brume_error *err)
     return true;
 }
 
+/* As photons_warm. */
+bool sample_warm(cuda_state *s, brume_error *err)
+{
+    sample_job none = s->job;
+    none.x1 = none.x0;
+    s->stage->lines(&none);
+    if (s->job.pixels.path)
+        s->stage->paths(&none);
+    return device_check(cudaDeviceSynchronize(), "opening", err);
+}
+
 void *cuda_open(const backend_frame *frame, brume_error *err)
 {
     cuda_state *s = new (std::nothrow) cuda_state();
@@ -170,15 +183,18 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
         brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
         return nullptr;
     }
+    device_keep_memory();
     s->frame = *frame;
+    s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs);
     s->photons = choose(photon_kernels, frame->stages->needs);
     s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
     describe_job(&s->job, frame);
-    if (open_device(s, err) &&
+    if (open_device(s, err) && upload_new(&s->to, err) &&
         device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
-        tree_scene_build(s, err) && start_film(s, err) && photons_open(s, err))
+        tree_scene_build(s, err) && start_film(s, err) &&
+        photons_open(s, err) && sample_warm(s, err) && photons_warm(s, err))
         return s;
     cuda_close(s);
     return nullptr;
@@ -196,6 +212,16 @@ void give_times(cuda_state *s, brume_device_seconds *out)
     s->spent = {};
 }
 
+/* Hands over what memory was set aside since this was done last. */
+void give_memory(cuda_state *s, brume_stats *out)
+{
+    uint64_t now = device_reserved();
+    out->allocated += (now > s->reserved ? now - s->reserved : 0) +
+                      s->to.set_aside;
+    s->reserved = now;
+    s->to.set_aside = 0;
+}
+
 bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
 {
     device_counters c;
@@ -205,6 +231,7 @@ bool read_counts(cuda_state *s, brume_stats *out, brume_error *err)
         return false;
     cuda_add_track(&c, out);
     give_times(s, &out->device);
+    give_memory(s, out);
     return true;
 }
 

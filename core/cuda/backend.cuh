@@ -3,6 +3,7 @@
 #define CORE_CUDA_BACKEND_CUH
 #include "core/cuda/photons.cuh"
 #include "core/cuda/tree.cuh"
+#include "core/cuda/upload.cuh"
 extern "C" {
 #include "core/backend.h"
 }
@@ -11,6 +12,7 @@ struct cuda_state {
     backend_frame frame;
     device_arena arena;
     device_arena field;         /* of a pass of its own                    */
+    uploader to;                /* the device                              */
     struct resident_set *kept;  /* beside it, or NULL                      */
     sample_job job;             /* its scene's pointers are the device's   */
     const sample_stage *stage;
@@ -22,7 +24,10 @@ struct cuda_state {
     photon_totals *total;
     void *list[2];              /* of photons that wait                    */
     photon_queue *queue;
+    unsigned *cell_list;        /* of balls; NULL without them             */
+    cell_queue *cell_queue;
     int processors, trace_threads;
+    uint64_t reserved;          /* memory that has been told of            */
     device_clock clock;
     brume_device_seconds spent; /* since the last sample                   */
     tree_kd kd;                 /* the scene's, if it does not stay        */
@@ -34,6 +39,7 @@ struct cuda_state {
 size_t photons_bytes(const cuda_state *s);
 /* Takes them, and clears the sums. */
 bool photons_open(cuda_state *s, brume_error *err);
+bool photons_warm(cuda_state *s, brume_error *err);
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
                 brume_error *err);
 bool cuda_gather(void *state, double unit, brume_error *err);

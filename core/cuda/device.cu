@@ -57,6 +57,42 @@ bool device_clock_add(struct device_clock *clock, int i, double *sum)
     return true;
 }
 
+static bool device_pool(cudaMemPool_t *pool)
+{
+    int device = 0;
+    return cudaGetDevice(&device) == cudaSuccess &&
+           cudaDeviceGetDefaultMemPool(pool, device) == cudaSuccess;
+}
+
+void device_keep_memory()
+{
+    cudaMemPool_t pool;
+    uint64_t all = UINT64_MAX;
+    if (device_pool(&pool))
+        cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all);
+}
+
+cudaError_t device_new(void **memory, size_t bytes)
+{
+    return cudaMallocAsync(memory, bytes, nullptr);
+}
+
+void device_free(void *memory)
+{
+    if (memory)
+        cudaFreeAsync(memory, nullptr);
+}
+
+uint64_t device_reserved()
+{
+    cudaMemPool_t pool;
+    uint64_t bytes = 0;
+    if (device_pool(&pool))
+        cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent,
+                                &bytes);
+    return bytes;
+}
+
 size_t device_round(size_t bytes)
 {
     return (bytes + alignment - 1) / alignment * alignment;
@@ -68,7 +104,7 @@ bool device_arena_new(struct device_arena *arena, size_t size,
     void *base = nullptr;
     arena->used = 0;
     arena->size = size;
-    bool good = device_check(cudaMalloc(&base, size > 0 ? size : alignment),
+    bool good = device_check(device_new(&base, size > 0 ? size : alignment),
                              "allocating the frame", err);
     arena->base = static_cast<char *>(base);
     return good;
@@ -83,7 +119,6 @@ void *device_take(struct device_arena *arena, size_t bytes)
 
 void device_arena_free(struct device_arena *arena)
 {
-    if (arena->base)
-        cudaFree(arena->base);
+    device_free(arena->base);
     arena->base = nullptr;
 }

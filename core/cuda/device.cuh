@@ -2,6 +2,7 @@
  * allocation for all that a frame reads. */
 #ifndef CORE_CUDA_DEVICE_CUH
 #define CORE_CUDA_DEVICE_CUH
+#include <cstdint>
 #include <cuda_runtime.h>
 #include "lib/error.h"
 
@@ -9,6 +10,14 @@
  * Out of memory is BRUME_ERR_MEMORY, all else BRUME_ERR_DEVICE. */
 bool device_check(cudaError_t code, const char *stage,
                   struct brume_error *err);
+
+/* Memory of the device, in the order of its work. What is freed is kept for
+ * the next that asks, so that frames after the first set none aside. */
+void device_keep_memory();
+cudaError_t device_new(void **memory, size_t bytes);
+void device_free(void *memory);
+/* Bytes set aside, used or not. */
+uint64_t device_reserved();
 
 /* Hands out parts of one device allocation. */
 struct device_arena {

@@ -46,6 +46,15 @@ size_t list_bytes(const cuda_state *s)
     return device_round(photons * s->photons->state_bytes);
 }
 
+/* Bytes of a list of all the field's cells, where they are of balls. */
+size_t cell_list_bytes(const backend_frame *frame)
+{
+    const flat_scene *view = &frame->flat->view;
+    size_t numbers = static_cast<size_t>(view->field.numbers);
+    return view->field.ball ? view->radiance_count / numbers * sizeof(unsigned)
+                            : 0;
+}
+
 double book_of(unsigned long long sum)
 {
     return static_cast<double>(static_cast<int64_t>(sum)) / PHOTON_BOOK_ONE;
@@ -122,6 +131,12 @@ __global__ void halve(radiance_lattice field, const int64_t *sum, float *blocks,
         blocks[i] = half_block(&field, sum, i, scale);
 }
 
+cell_job describe_cells(const cuda_state *s)
+{
+    return {s->job.scene, s->job.pixels.seed, s->job.pixels.frame, s->cells,
+            s->cell_list, s->cell_queue,      s->processors};
+}
+
 /* A brick a block, a cell a thread. */
 __global__ void sharpen(const __grid_constant__ flat_scene scene,
                         const float *means, float *cells)
@@ -141,7 +156,9 @@ size_t photons_bytes(const cuda_state *s)
     return device_round(radiance_sum_bytes(frame->flat)) +
            device_round(most_sources(frame) * sizeof(photon_source)) +
            device_round(sizeof(photon_totals)) + 2 * list_bytes(s) +
-           device_round(sizeof(photon_queue));
+           device_round(sizeof(photon_queue)) +
+           device_round(sizeof(cell_queue)) +
+           device_round(cell_list_bytes(frame));
 }
 
 bool photons_open(cuda_state *s, brume_error *err)
@@ -157,8 +174,41 @@ bool photons_open(cuda_state *s, brume_error *err)
     s->list[0] = device_take(a, list_bytes(s));
     s->list[1] = device_take(a, list_bytes(s));
     s->queue = static_cast<photon_queue *>(device_take(a, sizeof *s->queue));
+    s->cell_queue = static_cast<cell_queue *>(
+        device_take(a, sizeof *s->cell_queue));
+    s->cell_list = static_cast<unsigned *>(
+        device_take(a, cell_list_bytes(&s->frame)));
     return device_check(cudaMemset(s->sum, 0, bytes), "clearing the field",
                         err);
+}
+
+/* Launches without work, of what the frame's stages will launch: the first one
+ * of a kernel waits until its code and its threads' stacks have their place. */
+bool photons_warm(cuda_state *s, brume_error *err)
+{
+    const radiance_lattice *f = &s->frame.flat->view.field;
+    photon_job none = {};
+    trace_job t;
+    if (!s->frame.stages->photons)
+        return true;
+    if (!start(s, &none, &t, err))
+        return false;
+    t.first = 0;
+    t.born = 0;
+    t.last = 1;
+    s->photons->bear(&t);
+    if (!device_check(s->tracer->trace(&t, 1, s->trace_threads),
+                      "launching the trace stage", err))
+        return false;
+    cell_job cells = describe_cells(s);
+    cells.scene.radiance_slots_count = 0;
+    resolve<<<1, block_size>>>(s->sum, s->cells, 0, 0.0);
+    cudaMemsetAsync(s->cell_queue, 0, sizeof *s->cell_queue);
+    if (f->ball)
+        s->photons->balls(&cells);
+    if (f->single || f->lit)
+        s->photons->light(&cells);
+    return device_check(cudaDeviceSynchronize(), "opening", err);
 }
 
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
@@ -201,8 +251,7 @@ bool cuda_gather(void *state, double unit, brume_error *err)
     const radiance_lattice *f = &s->frame.flat->view.field;
     uint64_t count = s->frame.flat->view.radiance_count;
     uint64_t blocks = (count + block_size - 1) / block_size;
-    cell_job job = {s->job.scene, s->job.pixels.seed, s->job.pixels.frame,
-                    s->cells};
+    cell_job job = describe_cells(s);
     if (count == 0)
         return true;
     device_clock_mark(&s->clock, 0);
@@ -211,8 +260,10 @@ bool cuda_gather(void *state, double unit, brume_error *err)
             s->sum, s->cells, count, radiance_scale(f, unit));
     if (backend_sharpens(&s->frame))
         sharpen_cells(s, count);
-    if (unit > 0.0 && f->ball)
+    if (unit > 0.0 && f->ball) {
+        cudaMemsetAsync(s->cell_queue, 0, sizeof *s->cell_queue);
         s->photons->balls(&job);
+    }
     if (f->single || f->lit)
         s->photons->light(&job);
     return device_check(cudaGetLastError(), "launching the gather stage",
@@ -276,9 +327,10 @@ bool cuda_renew(void *state, brume_error *err)
     size_t slots = from->radiance_slots_count * sizeof *from->radiance_slots;
     size_t cells = from->radiance_count * sizeof *from->radiance;
     size_t sums = radiance_sum_bytes(s->frame.flat);
+    size_t list = cell_list_bytes(&s->frame);
     if (!make_room(&s->field,
                    device_round(slots) + device_round(cells) +
-                       device_round(sums),
+                       device_round(sums) + device_round(list),
                    err))
         return false;
     to->field = from->field;
@@ -289,6 +341,7 @@ bool cuda_renew(void *state, brume_error *err)
     s->cells = static_cast<float *>(device_take(&s->field, cells));
     to->radiance = s->cells;
     s->sum = static_cast<int64_t *>(device_take(&s->field, sums));
+    s->cell_list = static_cast<unsigned *>(device_take(&s->field, list));
     return device_check(cudaMemcpy(at, from->radiance_slots, slots,
                                    cudaMemcpyHostToDevice),
                         "uploading the field", err) &&

@@ -41,12 +41,20 @@ struct trace_job {
     photon_totals *total;
 };
 
+/* Counts of the list of cells. */
+struct cell_queue {
+    unsigned listed, taken;
+};
+
 /* What is done to every cell. */
 struct cell_job {
     flat_scene scene;
     uint64_t seed;
     uint32_t frame;
     float *cells;
+    unsigned *list;             /* of cells of balls, room for all         */
+    cell_queue *queue;          /* 0                                       */
+    int processors;
 };
 
 struct photon_stage {

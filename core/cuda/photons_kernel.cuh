@@ -350,6 +350,9 @@ trace_photons(const __grid_constant__ trace_job job)
 
 const int cells_at_once = 128; /* of a brick of 512, in one block */
 
+/* No fewer than a multiprocessor has room for. */
+const int blocks_of_balls = 6;
+
 /* The brick and the number in it of a thread's cell; false: it is not there. */
 __device__ __forceinline__ bool find_cell(const cell_job *job, uint64_t *brick,
                                           int *cell)
@@ -357,16 +360,36 @@ __device__ __forceinline__ bool find_cell(const cell_job *job, uint64_t *brick,
     const int blocks = 512 / cells_at_once;
     *brick = blockIdx.x / blocks;
     *cell = static_cast<int>(blockIdx.x % blocks * cells_at_once + threadIdx.x);
-    return job->scene.radiance_slots[*brick] >= 0;
+    return *brick < job->scene.radiance_slots_count &&
+           job->scene.radiance_slots[*brick] >= 0;
 }
 
-__global__ void __launch_bounds__(cells_at_once, 4)
-ball_cells(const __grid_constant__ cell_job job)
+/* Lists the cells whose balls have something. */
+__global__ void __launch_bounds__(cells_at_once)
+list_cells(const __grid_constant__ cell_job job)
 {
     uint64_t brick;
     int cell;
-    if (find_cell(&job, &brick, &cell))
-        ball_cell_run(&job.scene, brick, cell, job.cells);
+    bool has = find_cell(&job, &brick, &cell) &&
+               ball_cell_has(&job.scene, brick, cell, job.cells);
+    unsigned at = take_numbers(&job.queue->listed, has);
+    if (has)
+        job.list[at] = static_cast<unsigned>(brick * 512) +
+                       static_cast<unsigned>(cell);
+}
+
+/* Threads that stay take them: their work is uneven, and what lies beside is
+ * often empty. */
+__global__ void __launch_bounds__(cells_at_once, 4)
+ball_cells(const __grid_constant__ cell_job job)
+{
+    unsigned i, n = job.queue->listed;
+    do {
+        i = take_numbers(&job.queue->taken, true);
+        if (i < n)
+            ball_cell_run(&job.scene, job.list[i] / 512,
+                          static_cast<int>(job.list[i] % 512), job.cells);
+    } while (__any_sync(~0u, i < n));
 }
 
 __global__ void __launch_bounds__(cells_at_once, 4)
@@ -382,14 +405,14 @@ light_cells(const __grid_constant__ cell_job job)
 
 unsigned cell_blocks(const cell_job *job)
 {
-    return static_cast<unsigned>(job->scene.radiance_slots_count) *
-           (512 / cells_at_once);
+    unsigned bricks = static_cast<unsigned>(job->scene.radiance_slots_count);
+    return (bricks > 0 ? bricks : 1u) * (512 / cells_at_once);
 }
 
 void bear(const trace_job *job)
 {
-    bear_photons<<<(job->born + births_at_once - 1) / births_at_once,
-                   births_at_once>>>(*job);
+    unsigned blocks = (job->born + births_at_once - 1) / births_at_once;
+    bear_photons<<<blocks > 0 ? blocks : 1, births_at_once>>>(*job);
 }
 
 cudaError_t trace(const trace_job *job, unsigned blocks, int threads)
@@ -407,7 +430,8 @@ cudaError_t trace(const trace_job *job, unsigned blocks, int threads)
 
 void balls(const cell_job *job)
 {
-    ball_cells<<<cell_blocks(job), cells_at_once>>>(*job);
+    list_cells<<<cell_blocks(job), cells_at_once>>>(*job);
+    ball_cells<<<blocks_of_balls * job->processors, cells_at_once>>>(*job);
 }
 
 void light(const cell_job *job)

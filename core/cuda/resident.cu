@@ -28,6 +28,7 @@ struct resident {
 
 struct resident_set {
     resident *first;
+    uploader *to;
     uint64_t uploaded, built, had;
 };
 
@@ -36,7 +37,7 @@ namespace
 
 void forget(resident *r)
 {
-    cudaFree(r->device);
+    device_free(r->device);
     free(r->piece);
     delete r;
 }
@@ -65,12 +66,15 @@ void release(void *set)
 /* Where there is no room, what this frame does not use goes. */
 bool allocate(resident_set *set, resident *r, brume_error *err)
 {
-    if (cudaMalloc(&r->device, r->bytes) == cudaSuccess)
-        return true;
-    cudaGetLastError();
-    drop(set, 0);
-    return device_check(cudaMalloc(&r->device, r->bytes),
-                        "allocating the frame", err);
+    void *memory = nullptr;
+    cudaError_t code = device_new(&memory, r->bytes);
+    if (code != cudaSuccess) {
+        cudaGetLastError();
+        drop(set, 0);
+        code = device_new(&memory, r->bytes);
+    }
+    r->device = static_cast<char *>(memory);
+    return device_check(code, "allocating the frame", err);
 }
 
 /* A piece that the device has. */
@@ -118,11 +122,14 @@ bool send(resident_set *set, const resident *r, const parcel *p,
     bool there = p->source != nullptr;
     const char *from = there ? p->source
                              : static_cast<const char *>(host) + p->from;
+    char *to = r->device + p->from;
     set->uploaded += there ? 0 : p->size;
-    return p->size == 0 ||
-           device_check(cudaMemcpy(r->device + p->from, from, p->size,
-                                   there ? cudaMemcpyDeviceToDevice
-                                         : cudaMemcpyHostToDevice),
+    if (p->size == 0)
+        return true;
+    if (!there)
+        return upload_put(set->to, to, from, p->size, err);
+    return upload_flush(set->to, err) &&
+           device_check(cudaMemcpy(to, from, p->size, cudaMemcpyDeviceToDevice),
                         "uploading the scene", err);
 }
 
@@ -192,8 +199,10 @@ bool resident_is_worth(const resident_set *set, size_t bytes)
     return set && bytes >= worth;
 }
 
-void resident_begin(resident_set *set)
+void resident_begin(resident_set *set, uploader *to)
 {
+    if (set)
+        set->to = to;
     for (resident *r = set ? set->first : nullptr; r; r = r->next)
         r->age++;
 }

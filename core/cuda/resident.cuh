@@ -3,7 +3,7 @@
  * again, nor the pieces of one that others have. */
 #ifndef CORE_CUDA_RESIDENT_CUH
 #define CORE_CUDA_RESIDENT_CUH
-#include "core/cuda/device.cuh"
+#include "core/cuda/upload.cuh"
 extern "C" {
 #include "core/backend.h"
 }
@@ -18,7 +18,7 @@ bool resident_is_worth(const resident_set *set, size_t bytes);
 
 /* A frame takes its arrays; at the end those go that neither it nor the one
  * before took. What was taken stays until the next frame begins. */
-void resident_begin(resident_set *set);
+void resident_begin(resident_set *set, uploader *to);
 /* NULL with err set. */
 const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err);

@@ -39,17 +39,8 @@ __device__ __forceinline__ void add_counters(device_counters *sum,
 #undef X
 }
 
-/* Whether most threads of a warp, of those whose lines have not ended, are on
- * their way: the others wait until it is worth while to end lines and begin
- * the next ones. */
-__device__ __forceinline__ bool lines_step(const pixel_liner *l)
-{
-    int on = __popc(__ballot_sync(~0u, l->next == PIXEL_STEPS));
-    int all = __popc(__ballot_sync(~0u, l->next != PIXEL_ENDS));
-    return on > 0 && 4 * on >= 3 * all;
-}
-
-/* The threads of a warp take steps together, whichever line each is at. */
+/* Threads of a warp meet at the end of a segment: while they go along it, each
+ * step is taken by all that are not there yet. */
 __global__ void __launch_bounds__(block_size, LINES_BLOCKS)
 sample_lines(const __grid_constant__ sample_job job)
 {
@@ -69,9 +60,8 @@ sample_lines(const __grid_constant__ sample_job job)
             pixel_take(s, &job.pixels, &l);
         if (l.next == PIXEL_SEEKS)
             pixel_seek(s, &l);
-        while (lines_step(&l))
-            if (l.next == PIXEL_STEPS)
-                pixel_step(s, &l);
+        while (l.next == PIXEL_STEPS)
+            pixel_step(s, &l);
     }
     add_counters(job.count, &count);
 }
@@ -101,12 +91,17 @@ sample_paths(const __grid_constant__ sample_job job)
     add_counters(job.count, &count);
 }
 
+/* As many parts of that size as there must be, but one at least. */
+unsigned parts_of(int whole, int size)
+{
+    return whole > size ? static_cast<unsigned>((whole + size - 1) / size) : 1u;
+}
+
 /* Blocks of so many tiles. */
 dim3 find_blocks(const sample_job *job, int tiles)
 {
-    int high = block_height * tiles;
-    return dim3((job->x1 - job->x0 + block_width - 1) / block_width,
-                (job->y1 - job->y0 + high - 1) / high);
+    return dim3(parts_of(job->x1 - job->x0, block_width),
+                parts_of(job->y1 - job->y0, block_height * tiles));
 }
 
 void lines(const sample_job *job)

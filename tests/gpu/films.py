@@ -207,6 +207,18 @@ def upload_row(films):
             "passed": later < 0.62 * sent[0]}
 
 
+def memory_row(films):
+    """MiB that frames set aside: no more once two of them had theirs."""
+    films.forget("whole")
+    _, frames = films.finish(films.scene("fog", FOG), "whole",
+                             ["+KFF6", "+W64", "+H48", "--spp", "4",
+                              "--integrator", "photon", "--photons", "20000"])
+    taken = [f["allocated"] / 2**20 for f in frames]
+    return {"what": "memory, MiB a frame", "how": "photon",
+            "first": round(taken[0], 1), "later": round(max(taken[2:]), 1),
+            "passed": taken[0] > 0 and max(taken[2:]) == 0}
+
+
 def rows(brume, room, bench):
     films = Films(brume, room, bench)
     scene = films.scene("fog", FOG)
@@ -219,6 +231,7 @@ def rows(brume, room, bench):
         out += [filter_row(films, temporal, aim) for temporal, aim in
                 (("3", 0.05), ("5", 0.05), ("adaptive", 0.1))]
     out.append(upload_row(films))
+    out.append(memory_row(films))
     return [{key: row.get(key, "") for key in
              ("what", "how", "seconds", "codes", "worst ms", "kept", "same",
               "kills", "torn", "ms", "share %", "first", "later", "passed")}
