@@ -6,6 +6,7 @@
 #include <string.h>
 #include "core/check.h"
 #include "core/flat.h"
+#include "core/plate.h"
 #include "core/query.h"
 #include "core/scene.h"
 #include "core/shapes.h"
@@ -19,6 +20,7 @@ brume_scene *brume_scene_new(struct brume_error *err)
     s->camera = (struct brume_camera)BRUME_CAMERA_INIT;
     s->globals = (struct brume_globals)BRUME_GLOBALS_INIT;
     s->sky = (struct brume_sky)BRUME_SKY_INIT;
+    s->plate = (struct brume_plate)BRUME_PLATE_INIT;
     s->atmosphere = -1;
     return s;
 }
@@ -36,6 +38,7 @@ void brume_scene_free(brume_scene *scene)
     for (size_t i = 0; i < scene->queries_count; i++)
         flat_free(scene->queries[i].flat);
     free((void *)scene->sky.radiance);
+    plate_release(&scene->plate);
 #define X(type, name) free(scene->name);
     SCENE_LISTS(X)
 #undef X

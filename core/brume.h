@@ -92,6 +92,26 @@ struct brume_sky {
 BRUME_API bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
                              struct brume_error *err);
 
+/* A picture that was made elsewhere: of `width` x `height` pixels, by rows from
+ * the top, which the rendered one has to have too; width 0: there is none. It
+ * is seen by the eye alone, each pixel as a piece at its depth: media before
+ * it are before it, and what is behind shows where alpha is below 1. It is
+ * copied. */
+struct brume_plate {
+    int width, height;
+    const float *radiance;      /* 3 a pixel, finite, associated with alpha */
+    const float *alpha;         /* in [0, 1]; NULL: 1                      */
+    const float *depth;         /* scene units; NULL, and where a number is
+                                   not finite or not above 0: the pixel is
+                                   behind all there is                     */
+    bool along_ray;             /* depths are along the rays through pixels,
+                                   and not along the direction of view     */
+};
+#define BRUME_PLATE_INIT {0, 0, NULL, NULL, NULL, false}
+BRUME_API bool brume_set_plate(brume_scene *scene,
+                               const struct brume_plate *plate,
+                               struct brume_error *err);
+
 enum brume_light_kind { BRUME_LIGHT_POINT, BRUME_LIGHT_SPOT,
                         BRUME_LIGHT_CYLINDER };
 
@@ -466,9 +486,9 @@ struct brume_options {
     bool (*progress)(void *user, const struct brume_progress *progress);
     void (*warn)(void *user, const char *text);
     void *user;
-    bool omit_background;       /* radiance without the background that the
-                                   camera sees past the scene, for pictures
-                                   with alpha                              */
+    bool omit_background;       /* radiance without the plate's and without
+                                   the background's that the camera sees
+                                   past the scene, for pictures with alpha */
     enum brume_tree tree;
     int tree_stack;             /* entries of the kd-tree's, 1 to 32; 0: 4 */
     struct brume_still *still;  /* of BRUME_TREE_BOTH, or NULL             */
@@ -540,9 +560,10 @@ struct brume_frame {
     float *radiance;            /* 3 per pixel, background included unless
                                    it was omitted                          */
     float *opacity;             /* 3 per pixel, 1 - transmittance of media and
-                                   surfaces before the background          */
+                                   surfaces before plate and background    */
     float *depth;               /* distance along the view direction to the
-                                   first visible surface; infinite if none */
+                                   first visible surface, or the plate;
+                                   infinite if none                        */
     struct brume_stats stats;
 };
 BRUME_API bool brume_render(brume_scene *scene,

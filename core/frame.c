@@ -6,6 +6,7 @@
 #include "core/drift.h"
 #include "core/order.h"
 #include "core/physics/kdtree.h"
+#include "core/plate.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
 #include "core/still.h"
@@ -635,6 +636,8 @@ static struct flat *prepare(brume_scene *scene,
                         .tree_stack = options->tree_stack,
                         .still = options->still,
                         .later = leaves_tree(options)};
+    if (!plate_fits(&scene->plate, options->width, options->height, err))
+        return NULL;
     if (p.tree_stack == 0)
         p.tree_stack = DEFAULT_STACK;
     if (p.tree_stack < 1 || p.tree_stack > KD_MAX_STACK) {

@@ -134,6 +134,7 @@ static int scene_needs(const struct flat *f)
            (has_surfaces(f) ? MAY_SURFACES : 0) |
            (has_emission(f) ? MAY_EMISSION : 0) |
            (f->sky_count > 0 ? MAY_SKY : 0) |
+           (f->plate_count > 0 ? MAY_PLATE : 0) |
            (f->view.local_lights ? MAY_LAMPS : 0) |
            (has_kd(f) ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
            (has_colors(f) ? MAY_COLORS : 0) |
@@ -145,7 +146,8 @@ static int scene_needs(const struct flat *f)
  * and that surfaces do not drown. */
 static bool has_noisy_lines(const struct flat *f)
 {
-    bool seen = f->sky_count > 0 || !rgb_is_black(f->view.background);
+    bool seen = f->sky_count > 0 || f->plate_count > 0 ||
+                !rgb_is_black(f->view.background);
     bool sampled = false;
     for (size_t i = 0; i < f->media_count; i++) {
         sampled |= f->media[i].sampled != 0;
@@ -422,6 +424,40 @@ static void note_fires(const brume_scene *scene, const struct flat *flat,
     }
 }
 
+static const char *plate_reason(const struct flat *f)
+{
+    if (f->plate_count == 0)
+        return "there is no plate";
+    for (size_t i = 0; i < f->plate_count; i++)
+        if (f->plate[i].depth < INFINITY)
+            return "the eye sees a plate, at the depths of its pixels";
+    return "the eye sees a plate, behind all that there is";
+}
+
+static void note_plate(const struct flat *f,
+                       const struct brume_options *options,
+                       struct brume_plan *plan)
+{
+    size_t deep = 0, clear = 0;
+    double lo = INFINITY, hi = 0.0;
+    for (size_t i = 0; i < f->plate_count; i++) {
+        const plate_pixel *p = &f->plate[i];
+        clear += p->pass > 0.0f;
+        if (!(p->depth < INFINITY))
+            continue;
+        deep++;
+        lo = fmin(lo, (double)p->depth / f->unit);
+        hi = fmax(hi, (double)p->depth / f->unit);
+    }
+    if (f->plate_count == 0)
+        return;
+    add_note(plan, "plate of %d x %d pixels: %zu with a depth, %zu not opaque",
+             options->width, options->height, deep, clear);
+    if (deep > 0)
+        add_note(plan, "the plate's depths: %g to %g, along %s", lo, hi,
+                 f->view.plate_ray ? "rays" : "the direction of view");
+}
+
 void plan_describe(const brume_scene *scene, const struct flat *f,
                    const struct brume_options *options, struct brume_plan *plan)
 {
@@ -451,6 +487,9 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
               "opacity, depth, background and emission toward the eye");
     add_stage(plan, "single", s.single, 0, single_reason(f, &s));
     add_stage(plan, "path", s.path, 0, path_reason(f, &s));
+    add_stage(plan, "composite", f->plate_count > 0,
+              f->plate_count * sizeof *f->plate, plate_reason(f));
+    note_plate(f, options, plan);
     note_field(f, options, plan);
     note_grids(scene, f, plan);
     note_fires(scene, f, plan);

@@ -196,8 +196,9 @@ static bool prepare_all(const struct prepare *job, const struct assembly *a,
         if (!add_material(job, &s->materials[i], err))
             return false;
     if (!prepare_lights(job, err) || !prepare_sky(job, err) ||
-        !prepare_shapes(job, a, err) || !prepare_grids(job, a, err) ||
-        !prepare_media(job, err) || !prepare_glow(job, err))
+        !prepare_plate(job, err) || !prepare_shapes(job, a, err) ||
+        !prepare_grids(job, a, err) || !prepare_media(job, err) ||
+        !prepare_glow(job, err))
         return false;
     prepare_clear(job);
     prepare_reach(job, a);

@@ -26,6 +26,8 @@ struct flat *prepare_scene(const struct prepare *job, struct brume_error *err);
 bool prepare_lights(const struct prepare *job, struct brume_error *err);
 /* prepare_sky.c: the sky, and its texels as lights. */
 bool prepare_sky(const struct prepare *job, struct brume_error *err);
+/* prepare_plate.c: the plate. */
+bool prepare_plate(const struct prepare *job, struct brume_error *err);
 /* prepare_shapes.c: shapes, triangles, their bounds and the tree. */
 bool prepare_shapes(const struct prepare *job, const struct assembly *a,
                     struct brume_error *err);

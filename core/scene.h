@@ -33,6 +33,7 @@ struct brume_scene {
     struct brume_camera camera;
     struct brume_globals globals;
     struct brume_sky sky;       /* radiance is the scene's own copy        */
+    struct brume_plate plate;   /* so are its numbers                      */
     int atmosphere;             /* an interior, or -1                      */
 #define X(type, name) type *name; size_t name##_count, name##_capacity;
     SCENE_LISTS(X)

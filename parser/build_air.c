@@ -5,6 +5,11 @@
 
 /* ---- background -------------------------------------------------------- */
 
+enum { BACKGROUND_EXR, BACKGROUND_LAYER };
+enum { BACKGROUND_LAYERED = 1, BACKGROUND_DEPTH = 2 };
+
+static const char *const depth_words[] = {"axis", "ray", "none", NULL};
+
 static const struct param background_arguments[] = {
     PARAM_ANY("color", PARAM_RGB, 0, 0, struct globals, background), {0}};
 
@@ -13,19 +18,44 @@ static void open_background(struct parser *parser, struct frame *frame)
     frame->node = &parser->builder->globals;
 }
 
-static const struct param background_params[] = {PARAM_OWN("exr", 1, 1, 0),
-                                                 {0}};
+static const struct param background_params[] = {
+    PARAM_OWN("exr", 1, 1, BACKGROUND_EXR),
+    PARAM_OWN("layer", 1, 1, BACKGROUND_LAYER),
+    PARAM_WORDS("depth", depth_words, BACKGROUND_DEPTH, struct globals,
+                plate.depth),
+    {0}};
+
+/* A plate has nothing of what was said of the one that it replaces. */
+static void name_plate(struct parser *parser, struct frame *frame,
+                       struct string name)
+{
+    struct background_plate *plate = &parser->builder->globals.plate;
+
+    plate->name = name;
+    plate->at = parser->builder->value_at;
+    if (!(frame->given & BACKGROUND_LAYERED))
+        plate->layer = (struct string){0};
+    if (!(frame->given & BACKGROUND_DEPTH))
+        plate->depth = 0;
+    frame->arguments = 1;
+}
 
 static void background_values(struct parser *parser, struct frame *frame,
                               const struct param *row,
                               const struct value *value, int count,
                               struct location at)
 {
-    (void)value;
     (void)count;
-    frame->arguments = 1;
-    parser_mistake(parser, at, "'%s' in a background is not supported yet",
-                   row->word);
+    if (value->kind != VALUE_STRING) {
+        parser_mistake(parser, at, "'%s' needs the name of a %s", row->word,
+                       row->id == BACKGROUND_EXR ? "file" : "layer");
+        frame->arguments = 1;
+    } else if (row->id == BACKGROUND_EXR) {
+        name_plate(parser, frame, value->string);
+    } else {
+        parser->builder->globals.plate.layer = value->string;
+        frame->given |= BACKGROUND_LAYERED;
+    }
 }
 
 const struct statement build_statement_background = {

@@ -319,6 +319,8 @@ bool build_finish(struct parser *parser)
     build_camera_lacks(parser, camera);
     if (!build_finish_sky(parser, &err))
         return parser_relay(parser, camera->at, &err);
+    if (!build_finish_plate(parser))
+        return false;
     build_report_lacks(parser);
 
     if (finish_globals(parser, &err) && finish_camera(parser, &err))

@@ -223,7 +223,15 @@ struct volume_photons {
     double weight[BRUME_MAX_TAPS];
 };
 
+/* A plate as a background names it. */
+struct background_plate {
+    struct string name, layer;  /* text NULL: none                         */
+    struct location at;         /* of the name                             */
+    int depth;                  /* as in enum parse_depth, from 0          */
+};
+
 struct globals {
+    struct background_plate plate;
     struct volume_photons volume_photons;
     bool has_volume_photons;
     struct photons photons;
@@ -409,6 +417,8 @@ struct child *build_add_child(struct parser *parser, struct members *members,
 void build_camera_lacks(struct parser *parser, const struct camera *camera);
 /* The end of the scene: its sky. */
 bool build_finish_sky(struct parser *parser, struct brume_error *err);
+/* build_plate.c. False: reported. */
+bool build_finish_plate(struct parser *parser);
 
 /* A spline as a function of core; -1 with err set. */
 int build_spline_function(struct parser *parser, const struct value *spline,

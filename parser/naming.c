@@ -145,6 +145,31 @@ const char *naming_beside(const struct options *options, const char *end,
     return path;
 }
 
+const char *naming_numbered(const char *name, int number, struct arena *arena)
+{
+    size_t size = strlen(name) + 16, used = 0;
+    char *path = arena_alloc(arena, size);
+    if (!path)
+        return NULL;
+    for (const char *at = name; *at; at++) {
+        int digits = 0;
+        if (*at != '%' || at[1] == '%') {
+            path[used++] = *at;
+            at += *at == '%';
+            continue;
+        }
+        if (at[1] == '0') {
+            digits = at[2] - '0';
+            at += 2;
+        }
+        at++;
+        used += (size_t)snprintf(path + used, size - used, "%0*d", digits,
+                                 number);
+    }
+    path[used] = '\0';
+    return path;
+}
+
 const char *naming_folder(const struct options *options, struct arena *arena)
 {
     struct frames still = {.animation = false};

@@ -21,6 +21,10 @@ const char *naming_picture(const struct options *options,
 const char *naming_beside(const struct options *options, const char *end,
                           struct arena *arena);
 
+/* A file's name with the frame's number for %d or %04d, which it has at most
+ * once, and % for %%. In the arena; NULL: no memory. */
+const char *naming_numbered(const char *name, int number, struct arena *arena);
+
 /* Whether pictures go to standard output, a device or a pipe. */
 bool naming_is_stream(const struct options *options);
 

@@ -84,7 +84,7 @@ bool setting_warn(const struct setting *setting, const char *format, ...)
 option_set set_flag, set_flag_number, set_display, set_dither;
 option_set set_integer, set_number, set_unsigned, set_photons,
            set_bytes;
-option_set set_text, set_folder, set_word, set_known_word;
+option_set set_text, set_numbered, set_folder, set_word, set_known_word;
 option_set set_input, set_output_file, set_file_type, set_declare, set_clock;
 option_set set_quality, set_file_gamma, set_stream, set_console,
            set_stream_file;

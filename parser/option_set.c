@@ -189,6 +189,26 @@ bool set_text(struct setting *s)
     return !to || (*to = copy_value(s, s->value));
 }
 
+/* A name in which %d or %04d, once, stands for the frame's number, and %% for
+ * a per cent sign. */
+bool set_numbered(struct setting *s)
+{
+    int numbers = 0;
+    for (const char *at = s->value; (at = strchr(at, '%')); at++) {
+        if (at[1] == '%') {
+            at++;
+            continue;
+        }
+        at += at[1] == '0' && at[2] >= '1' && at[2] <= '9' ? 3 : 1;
+        if (*at != 'd' || ++numbers > 1)
+            return setting_error(s,
+                                 "'%s': '%%d' or '%%04d' may stand in it once, "
+                                 "and '%%%%' for '%%'",
+                                 s->value);
+    }
+    return set_text(s);
+}
+
 /* The same folder twice counts once, as in POV-Ray. */
 bool set_folder(struct setting *s)
 {

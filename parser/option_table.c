@@ -47,6 +47,13 @@ static const struct option_word transport_words[] = {
     {NULL, 0, false},
 };
 
+static const struct option_word depth_words[] = {
+    {"axis", PARSE_DEPTH_AXIS, false},
+    {"ray", PARSE_DEPTH_RAY, false},
+    {"none", PARSE_DEPTH_NONE, false},
+    {NULL, 0, false},
+};
+
 static const struct option_word dither_words[] = {
     {"B2", 0, false}, {"B3", 0, false}, {"B4", 0, false}, {"D1", 0, false},
     {"D2", 0, false}, {"FS", 0, false}, {NULL, 0, false},
@@ -173,6 +180,13 @@ const struct option option_table[] = {
       .help = "of PNG and PPM: up to 8, or up to 16" },
     { .plus = "UA", .ini = "Output_Alpha", .set = set_flag, .at = AT(alpha),
       .help = "leave the background out, write alpha" },
+    { .name = "plate", .value = "file", .set = set_numbered, .at = AT(plate),
+      .help = "an EXR that is seen behind; %04d: frame" },
+    { .name = "plate-layer", .value = "name", .set = set_text,
+      .at = AT(plate_layer), .help = "of an EXR with layers" },
+    { .name = "plate-depth", .value = "name", .set = set_word,
+      .at = AT(plate_depth), .words = depth_words,
+      .help = "its Z is along the axis, ray, or none" },
     { .plus = "SC", .ini = "Start_Column", .value = "n", .set = set_number,
       .at = AT(start_column), .low = 0, .high = MAX_SIDE, .initial = -1,
       .help = "first column from 1, or fraction below 1" },

@@ -92,6 +92,9 @@ struct options {
     bool adaptive;
     double weight[BRUME_MAX_TAPS];
     bool full_transport;
+    const char *plate;              /* %d: the frame's number; or NULL     */
+    const char *plate_layer;
+    int plate_depth;                /* enum parse_depth                    */
     int spp;
     double error, seconds;
     int threads;

@@ -75,6 +75,17 @@ struct parse_cache;
 struct parse_cache *parse_cache_new(struct brume_error *err);
 void parse_cache_free(struct parse_cache *cache);
 
+/* What depths of a plate are: along the axis of view, along rays, or none. */
+enum parse_depth { PARSE_DEPTH_UNSAID, PARSE_DEPTH_AXIS, PARSE_DEPTH_RAY,
+                   PARSE_DEPTH_NONE };
+
+/* A plate in place of the scene's (--plate), and what is said of either in
+ * place of the scene's words. */
+struct parse_plate {
+    const char *path, *layer;   /* or NULL                                 */
+    enum parse_depth depth;
+};
+
 struct parse_input {
     const char *path;           /* the scene; "-" if text is not a file's  */
     const char *text;           /* read already (standard input); or NULL  */
@@ -88,6 +99,7 @@ struct parse_input {
                                    to read, and gone at the end            */
     bool full_transport;        /* transport is full unless the scene writes
                                    it out (--transport full)               */
+    struct parse_plate plate;
     /* Folders, in the order they are searched after the scene's own. */
     const char *const *library;
     size_t libraries;

@@ -183,6 +183,8 @@ static bool read_scene(struct reel *reel, int number,
         .header = options->header,
         .version = options->version,
         .full_transport = options->full_transport,
+        .plate = {.layer = options->plate_layer,
+                  .depth = (enum parse_depth)options->plate_depth},
         .all_errors = checks(options->action),
         .dry = checks(options->action),
         .library = reel->library,
@@ -207,6 +209,9 @@ static bool read_scene(struct reel *reel, int number,
         .user = events->user,
     };
     frames_ambient(&reel->frames, options, number, &in.ambient);
+    if (options->plate && !(in.plate.path = naming_numbered(
+                                options->plate, number, &reel->arena)))
+        return diag_error(diag, BRUME_ERR_MEMORY, "out of memory");
     record->number = number;
     record->clock = in.ambient.clock;
     record->clock_on = in.ambient.clock_on;

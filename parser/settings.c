@@ -31,6 +31,9 @@ static void put_scene(struct settings *s, const struct options *o)
     put_text(s, "scene", slash ? slash + 1 : o->input);
     put_text(s, "header", o->header);
     put(s, "version %.17g full %d", o->version, o->full_transport);
+    put_text(s, "plate", o->plate);
+    put_text(s, "layer", o->plate_layer);
+    put(s, "depth %d", o->plate_depth);
     for (size_t i = 0; i < o->declares; i++) {
         put_text(s, "declare", o->declare[i].name);
         put(s, "%.17g", o->declare[i].value);

@@ -188,7 +188,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs);
-    s->photons = choose(photon_kernels, frame->stages->needs);
+    s->photons = choose(photon_kernels, frame->stages->needs & ~PHOTONS_IGNORE);
     s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
     describe_job(&s->job, frame);
     if (open_device(s, err) && upload_new(&s->to, err) &&

@@ -67,8 +67,9 @@ struct photon_stage {
     void (*light)(const cell_job *job);
 };
 
-/* Once photons are born, these are no matter. */
-enum { TRACE_IGNORES = MAY_EMISSION | MAY_SKY | MAY_LAMPS };
+/* What no photon meets; once photons are born, the others are no matter. */
+enum { PHOTONS_IGNORE = MAY_PLATE,
+       TRACE_IGNORES = PHOTONS_IGNORE | MAY_EMISSION | MAY_SKY | MAY_LAMPS };
 
 extern const photon_stage photons_media, photons_colors, photons_lit,
     photons_fire, photons_all;

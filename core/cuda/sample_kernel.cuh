@@ -77,11 +77,13 @@ sample_paths(const __grid_constant__ sample_job job)
     bool more = find_pixel(&job, &x, &y, &at), alive = false;
     track_counters count = {};
     path_state path;
+    plate_view plate = plate_none();
     uint32_t i = job.first;
     while (__syncthreads_or(more)) {
         if (more && !alive)
-            pixel_begin(&job.scene, &job.pixels, x, y, i++, &path, &count);
-        alive = more && single_segment(&job.scene, &path, &count);
+            pixel_begin(&job.scene, &job.pixels, x, y, i++, &path, &plate,
+                        &count);
+        alive = more && single_segment(&job.scene, &path, &plate, &count);
         if (more && !alive) {
             pixel_end(&path, pixel_half((i - 1u) / job.pixels.share),
                       &job.pixel[at], &count);

@@ -24,7 +24,8 @@ enum {
     MAY_KDTREE = 2048,
     MAY_COLORS = 4096,      /* media in which the channels fly differently */
     MAY_BALLS = 8192,       /* a field of balls                            */
-    MAY_ALL = 16383
+    MAY_PLATE = 16384,      /* a picture from elsewhere before the eye     */
+    MAY_ALL = 32767
 };
 
 #ifndef SCENE_MAY

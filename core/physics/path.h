@@ -15,6 +15,7 @@
 #include "core/physics/equiangular.h"
 #include "core/physics/light.h"
 #include "core/physics/path_track.h"
+#include "core/physics/plate.h"
 #include "core/physics/shadow.h"
 #include "core/physics/sky.h"
 #include "core/physics/warp.h"
@@ -520,9 +521,26 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
 
 /* ---- the path ---------------------------------------------------------- */
 
-/* One segment: to the next event or surface. False: the path has ended. */
-HD bool path_segment(const flat_scene *s, path_state *p,
-                     track_counters *count)
+/* Whether the plate ends the segment, and not its hit. */
+HD bool path_meets_plate(const path_state *p, const plate_view *plate,
+                         ray_hit *h)
+{
+    return p->straight && plate_cuts(plate, h);
+}
+
+/* What the plate leaves of the path; false: nothing. Its own light is
+ * march.h's. */
+HD bool path_plate(path_state *p, plate_view *plate)
+{
+    p->beta = rgb_scale(p->beta, plate->pass);
+    plate_cross(plate, &p->after);
+    return !rgb_is_black(p->beta);
+}
+
+/* One segment: to the next event or surface, or the plate that the eye's ray
+ * has ahead. False: the path has ended. */
+HD bool path_segment_to(const flat_scene *s, path_state *p, plate_view *plate,
+                        track_counters *count)
 {
     p->count = count;
     bvh_ray r = bvh_ray_make(p->o, p->d);
@@ -531,15 +549,26 @@ HD bool path_segment(const flat_scene *s, path_state *p,
     if (h.shape < 0)
         container_leave_bounded(s, &p->inside);
     path_event at;
+    bool covered = path_meets_plate(p, plate, &h);
     int event = path_media(s, p, h.t, &at);
     if (event == PATH_SCATTERED)
         return path_scatter(s, p, &at);
     if (event == PATH_ENDED)
         return false;
+    if (covered)
+        return path_plate(p, plate);
     if (h.shape >= 0)
         return path_surface(s, p, &r, &h);
     path_escape(s, p);
     return false;
+}
+
+/* The same without a plate. */
+HD bool path_segment(const flat_scene *s, path_state *p,
+                     track_counters *count)
+{
+    plate_view none = plate_none();
+    return path_segment_to(s, p, &none, count);
 }
 
 /* Starts a path at o (containers `inside`) along the unit vector d. A path

@@ -157,13 +157,17 @@ HD pixel_place pixel_spread(const pixel_job *job, uint64_t index,
     return p;
 }
 
+HD uint64_t pixel_index(const pixel_job *job, int32_t x, int32_t y)
+{
+    return (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
+}
+
 /* An eye's ray of pixel (x, y), and where it starts. */
 HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
                   int32_t y, uint32_t number, vec3 *o, vec3 *d,
                   container_set *set, line_jitter *along)
 {
-    uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
-    pixel_place at = pixel_spread(job, index, number);
+    pixel_place at = pixel_spread(job, pixel_index(job, x, y), number);
     float u = ((float)x + at.x) / (float)job->width - 0.5f;
     float v = 0.5f - ((float)y + at.y) / (float)job->height;
     camera_ray(&s->view, u, v, o, d);
@@ -211,6 +215,7 @@ HD void pixel_take(const flat_scene *s, const pixel_job *job, pixel_liner *l)
     l->half = pixel_half(l->number / job->share);
     pixel_ray(s, job, l->x, l->y, l->number, &o, &d, &set, &along);
     march_begin(&l->march, &set, o, d, along);
+    l->march.plate = plate_seen(s, pixel_index(job, l->x, l->y), d);
 }
 
 HD void pixel_seek(const flat_scene *s, pixel_liner *l)
@@ -256,15 +261,16 @@ HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
 
 HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
                     int32_t y, uint32_t i, path_state *path,
-                    track_counters *count)
+                    plate_view *plate, track_counters *count)
 {
     vec3 o, d;
     line_jitter along;
     container_set set;
-    uint64_t index = (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
+    uint64_t index = pixel_index(job, x, y);
     pixel_ray(s, job, x, y, i, &o, &d, &set, &along);
     rng random = rng_make(job->seed, job->frame, i, index);
     path_begin(path, o, d, &set, true, random);
+    *plate = plate_seen(s, index, d);
     path->along = along.first;
     path->spread = PIXEL_SPREAD;
     count->paths++;
@@ -287,6 +293,7 @@ HD void pixel_paths_run(const flat_scene *s, const pixel_job *job, int32_t x,
                         film_pixel *out, track_counters *count)
 {
     path_state path;
+    plate_view plate = plate_none();
     bool alive = false;
     uint32_t i = first;
     if (!job->path) {
@@ -295,8 +302,8 @@ HD void pixel_paths_run(const flat_scene *s, const pixel_job *job, int32_t x,
     }
     while (alive || i < first + n) {
         if (!alive)
-            pixel_begin(s, job, x, y, i++, &path, count);
-        alive = single_segment(s, &path, count);
+            pixel_begin(s, job, x, y, i++, &path, &plate, count);
+        alive = single_segment(s, &path, &plate, count);
         if (!alive)
             pixel_end(&path, pixel_half((i - 1u) / job->share), out, count);
     }

@@ -235,6 +235,13 @@ typedef struct {
     float density;          /* of choosing it, per solid angle of the map  */
 } sky_texel;
 
+/* A pixel of a plate: a picture made elsewhere, which the eye alone sees. */
+typedef struct {
+    rgb color;              /* associated with its alpha                   */
+    float pass;             /* 1 - alpha                                   */
+    float depth;            /* infinite: behind all that there is          */
+} plate_pixel;
+
 /* Light that has been scattered, in cells of a cubic lattice over the media; in
  * bricks of 8^3, where something scatters. A cell holds what is asked of it:
  * Int p L toward the eye for each phase function p of the media; the fluence
@@ -326,6 +333,7 @@ typedef struct {
     X(flat_light, lights)                                                     \
     X(flat_sky, sky)            /* one, or none: the background is all */     \
     X(sky_texel, sky_texels)                                                  \
+    X(plate_pixel, plate)       /* of the whole picture, by rows; or none */  \
     X(bvh_node, bvh)                                                          \
     X(uint32_t, bvh_items)      /* shape, or shapes_count + triangle */       \
     X(kd_node, kd)                                                            \
@@ -347,6 +355,8 @@ typedef struct {
     int32_t eye_on_face;    /* 1: of some container: each ray has to look
                                where it goes                               */
     int32_t atmosphere;     /* an interior, or -1                          */
+    int32_t plate_ray;      /* 1: its depths are along rays, not along the
+                               view direction                              */
     int32_t media_multiple, surfaces_indirect, environment, physical_units;
     int32_t scatters;       /* some medium has sigma_s > 0                 */
     int32_t local_lights;   /* some light is local                         */

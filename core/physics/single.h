@@ -435,12 +435,12 @@ HD void single_gather(const flat_scene *s, path_state *p, const ray_hit *h)
     p->beta = rgb_mul(p->beta, line_transmittance(&line));
 }
 
-/* In place of path_segment. */
-HD bool single_segment(const flat_scene *s, path_state *p,
+/* In place of path_segment_to. */
+HD bool single_segment(const flat_scene *s, path_state *p, plate_view *plate,
                        track_counters *count)
 {
     if (!single_does(s) || !(p->straight || single_follows(s)))
-        return path_segment(s, p, count);
+        return path_segment_to(s, p, plate, count);
     p->count = count;
     bvh_ray r = bvh_ray_make(p->o, p->d);
     p->count->rays++;
@@ -454,11 +454,15 @@ HD bool single_segment(const flat_scene *s, path_state *p,
         path_escape(s, p);
         return false;
     }
+    bool covered = path_meets_plate(p, plate, &h);
     single_media(s, p, &h);
-    if (h.shape < 0 || single_is_last(s, p, &r, &h))
+    if (covered ? !(plate->pass > 0.0f)
+                : h.shape < 0 || single_is_last(s, p, &r, &h))
         return false;
     line_integral line = single_along(s, p, h.t, false);
     p->beta = rgb_mul(p->beta, line_transmittance(&line));
+    if (covered)
+        return path_plate(p, plate);
     return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
 }
 

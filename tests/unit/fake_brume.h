@@ -45,6 +45,7 @@ struct brume_scene {
     struct brume_camera camera;
     struct brume_globals globals;
     struct brume_sky sky;
+    struct brume_plate plate;
     int cameras, global_settings, atmosphere;
     struct brume_light light[FAKE_ROOM];
     struct brume_material material[FAKE_ROOM];
@@ -124,6 +125,15 @@ bool brume_set_sky(brume_scene *scene, const struct brume_sky *sky,
     if (fake_refuses(scene, "sky", err))
         return false;
     scene->sky = *sky;
+    return true;
+}
+
+bool brume_set_plate(brume_scene *scene, const struct brume_plate *plate,
+                     struct brume_error *err)
+{
+    if (fake_refuses(scene, "plate", err))
+        return false;
+    scene->plate = *plate;
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 #include <cmocka.h>
+#include "parser/naming.h"
 #include "parser/option.h"
 
 /* A run's options, read from words; released by `done`. */
@@ -118,6 +119,33 @@ static void test_options__long(void **state)
     assert_string_equal(options.allow_read.item[1], "/b");
     assert_int_equal(options.action, OPTIONS_EXPLAIN_JSON);
     done();
+}
+
+static void test_options__plates(void **state)
+{
+    struct arena arena;
+    (void)state;
+    arena_init(&arena, 0);
+    assert_true(READ("--plate", "a%%b_%04d.exr", "--plate-layer=View",
+                     "--plate-depth", "ray"));
+    assert_string_equal(naming_numbered(options.plate, 37, &arena),
+                        "a%b_0037.exr");
+    assert_string_equal(options.plate_layer, "View");
+    assert_int_equal(options.plate_depth, PARSE_DEPTH_RAY);
+    done();
+    assert_true(READ("--plate=%d"));
+    assert_string_equal(naming_numbered(options.plate, 1234567890, &arena),
+                        "1234567890");
+    done();
+    static const char *const wrong[] = {"%s.exr", "%4d", "%0d",
+                                        "%d%d",   "a%",  "%010d"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_false(READ("--plate", wrong[i]));
+        done();
+    }
+    assert_false(READ("--plate-depth", "far"));
+    done();
+    arena_release(&arena);
 }
 
 static void test_options__file_types(void **state)
@@ -460,6 +488,7 @@ int main(void)
         cmocka_unit_test(test_options__switches),
         cmocka_unit_test(test_options__named),
         cmocka_unit_test(test_options__long),
+        cmocka_unit_test(test_options__plates),
         cmocka_unit_test(test_options__file_types),
         cmocka_unit_test(test_options__streams),
         cmocka_unit_test(test_options__callers),

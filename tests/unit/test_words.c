@@ -111,6 +111,12 @@ static uint64_t hash_scene(const brume_scene *scene,
         mix(&hash, scene->sky.radiance,
             3 * sizeof(float) * (size_t)scene->sky.width *
                 (size_t)scene->sky.height);
+    if (scene->plate.width > 0) {
+        mix(&hash, scene->plate.radiance,
+            3 * sizeof(float) * (size_t)scene->plate.width *
+                (size_t)scene->plate.height);
+        mix(&hash, &scene->plate.along_ray, sizeof scene->plate.along_ray);
+    }
     MIX_LIST(&hash, scene, lights);
     MIX_LIST(&hash, scene, materials);
     MIX_LIST(&hash, scene, fields);

@@ -274,6 +274,7 @@ static const struct words_scene words_scenes[] = {
 #define WORDS_GLASS "sphere { 0, 1 pigment { rgbf 1 } interior { % } }"
 #define WORDS_AVERAGE "color_map { [1 rgb x] [2 rgb y] }"
 #define WORDS_FACETS WORDS_WORN("normal { facets coords 1 % }")
+#define WORDS_PLATE "\"tests/data/plate.exr\""
 #define WORDS_BLUR " aperture 1 blur_samples 5 focal_point y "
 
 #define WORDS_WAVE(word, with)                                                 \
@@ -589,8 +590,13 @@ static const struct words_use words_uses[] = {
     WORDS_USE(CAMERA, "perspective", "orthographic perspective",
               "orthographic"),
     WORDS_USE(CAMERA, "cylinder", "cylinder 1", NULL),
-    WORDS_TOLD(BACKGROUND, "exr", "exr \"x.exr\"", "background { % }",
-               "not supported yet"),
+    WORDS_THERE(BACKGROUND, "exr", "exr " WORDS_PLATE, "rgb 0",
+                "background { % }"),
+    WORDS_THERE(BACKGROUND, "depth", "exr " WORDS_PLATE " depth ray",
+                "exr " WORDS_PLATE, "background { % }"),
+    WORDS_THERE(BACKGROUND, "layer",
+                "exr \"tests/data/plate_layers.exr\" layer \"ViewLayer\"",
+                "rgb 0", "background { % }"),
     WORDS_USE(CAMERA, "sky", "sky x look_at z", "look_at z"),
     WORDS_TOLD(CAMERA, "focal_point", WORDS_BLUR, NULL, "focal blur"),
     WORDS_TOLD(CAMERA, "aperture", WORDS_BLUR, NULL, "focal blur"),
