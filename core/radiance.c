@@ -121,24 +121,18 @@ static bool has_surfaces(const struct flat *f)
     return false;
 }
 
-/* Where single.h seeks it, in a picture alone of densities that are known along
- * lines, and where lights are few enough to look at all. */
+/* In a picture alone, where lights are few enough to look at all. */
 bool radiance_keeps_lit(const struct flat *f,
                         const struct brume_options *options)
 {
     const struct brume_photon_options *o = &options->photons;
     const flat_medium *known[MAX_PHASES];
     int count;
-    if (options->integrator != BRUME_INTEGRATOR_PHOTON ||
-        !list_phases(f, known, &count) || o->gather == BRUME_GATHER_BALL ||
-        o->single == BRUME_SINGLE_FIELD || brume_film_reach(options) > 0 ||
-        o->film_cells || f->view.local_lights || f->lights_count < 1 ||
-        f->lights_count > LIT_LIGHTS)
-        return false;
-    for (size_t i = 0; i < f->media_count; i++)
-        if (f->media[i].sampled)
-            return false;
-    return true;
+    return options->integrator == BRUME_INTEGRATOR_PHOTON &&
+           list_phases(f, known, &count) && o->gather != BRUME_GATHER_BALL &&
+           o->single != BRUME_SINGLE_FIELD && brume_film_reach(options) == 0 &&
+           !o->film_cells && f->lights_count >= 1 &&
+           f->lights_count <= LIT_LIGHTS;
 }
 
 /* The next place of so many numbers. */

@@ -29,6 +29,17 @@ HD void lit_cell_add(const flat_scene *s, const path_state *p,
     }
 }
 
+/* Where paths seek what the cells are wrong by, the light of a lamp counts as
+ * from half a cell away at least: nearer, cells hold no truth of it. */
+HD float lit_cell_near(const flat_scene *s, const flat_light *l,
+                       float distance)
+{
+    float near = 0.5f * s->field.side;
+    if (!s->field.lit || !l->local || !(distance < near))
+        return 1.0f;
+    return distance * distance / (near * near);
+}
+
 /* Adds a light's part to the numbers of the cell around x. */
 HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
                        const ball_media *ball, float *out)
@@ -39,7 +50,8 @@ HD void lit_cell_light(const flat_scene *s, int light, path_state *p, vec3 x,
         !light_reach(s, light, x, &p->random, &l))
         return;
     container_set set = p->inside;
-    rgb in = l.color;
+    rgb in = rgb_scale(l.color, lit_cell_near(s, &s->lights[light],
+                                              l.shadow_distance));
     if (s->lights[light].shadows)
         in = rgb_mul(in, shadow_line(s, &set, x, l.shadow_wi,
                                      l.shadow_distance,

@@ -1,7 +1,7 @@
 /* single.h - light that media scatter once, sampled along the eye's ray.
  *
- * Where nothing is followed beyond the first event, or a field holds what is,
- * and lights do not fall off with distance, no flights are drawn: the ray goes
+ * Where nothing is followed beyond the first event and lights do not fall off
+ * with distance, or a field holds what is, no flights are drawn: the ray goes
  * on to the next surface, and each light is sought at points of the stretch
  * that it can reach, chosen by a coarse profile of how much is scattered there
  * and comes through.
@@ -123,6 +123,18 @@ HD float single_place(const single_profile *f, float sum, float *density)
     float share = height > 0.0f ? (sum - f->sum[i]) / height : 0.5f;
     *density = length > 0.0f ? height / length : 0.0f;
     return f->t[i] + hd_min(hd_max(share, 0.0f), 1.0f) * length;
+}
+
+/* The profile's height at t. */
+HD float single_height(const single_profile *f, float t)
+{
+    int i = 0;
+    if (!(t >= f->t[0] && t <= f->t[f->count]))
+        return 0.0f;
+    while (i < f->count - 1 && t >= f->t[i + 1])
+        i++;
+    float length = f->t[i + 1] - f->t[i];
+    return length > 0.0f ? (f->sum[i + 1] - f->sum[i]) / length : 0.0f;
 }
 
 /* ---- the stretch that a light reaches ---------------------------------- */
@@ -341,15 +353,79 @@ HD_APART rgb single_error(const flat_scene *s, path_state *p, float t)
     return sum;
 }
 
-/* Adds it, at the share `u` of what is scattered. */
+HD equiangular single_angles(const path_state *p, const single_profile *f,
+                             const flat_light *l)
+{
+    return equiangular_make(p->o, p->d, f->t[0], f->t[f->count], l->position,
+                            l->blunt);
+}
+
+/* What a light that falls off has of the places where the error is sought:
+ * half of them go to the lights, by their shares. */
+HD float single_lamp_share(const flat_scene *s, int i)
+{
+    float before = i > 0 ? s->lights[i - 1].cumulative : 0.0f;
+    bool lamp = s->lights[i].local && s->lights[i].media_interaction;
+    return lamp ? 0.5f * (s->lights[i].cumulative - before) : 0.0f;
+}
+
+/* Density per length with which single_seek_lamps takes t. */
+HD float single_density(const flat_scene *s, const path_state *p,
+                        const single_profile *f, float t)
+{
+    float lamps = 0.0f, density = 0.0f;
+    for (int i = 0; i < (int)s->lights_count; i++) {
+        float share = single_lamp_share(s, i);
+        if (!(share > 0.0f))
+            continue;
+        equiangular e = single_angles(p, f, &s->lights[i]);
+        lamps += share;
+        density += share * equiangular_pdf(&e, t);
+    }
+    return density + (1.0f - lamps) * single_height(f, t) / f->sum[f->count];
+}
+
+/* A place for u in [0, 1) by the profile, or by the angles of a light that
+ * falls off: near it cells are worst. */
+HD float single_seek_lamps(const flat_scene *s, const path_state *p,
+                           const single_profile *f, float u)
+{
+    float height, left = 1.0f;
+    for (int i = 0; i < (int)s->lights_count; i++) {
+        float share = single_lamp_share(s, i);
+        if (u < share) {
+            equiangular e = single_angles(p, f, &s->lights[i]);
+            return equiangular_sample(&e, u / share);
+        }
+        u -= share;
+        left -= share;
+    }
+    return single_place(f, hd_min(u / left, 1.0f) * f->sum[f->count], &height);
+}
+
+/* Where what the cells are wrong by is sought, and how densely. */
+HD float single_seek(const flat_scene *s, const path_state *p,
+                     const single_profile *f, float u, float *density)
+{
+    float all = f->sum[f->count];
+    if (scene_may(MAY_LAMPS) && s->local_lights) {
+        float t = single_seek_lamps(s, p, f, u);
+        *density = single_density(s, p, f, t);
+        return t;
+    }
+    float t = single_place(f, u * all, density);
+    *density /= all;
+    return t;
+}
+
+/* Adds it, at the share `u` of the places where it may be. */
 HD void single_rest(const flat_scene *s, path_state *p,
                     const single_profile *f, float u)
 {
-    float density, all = f->sum[f->count];
-    float t = single_place(f, u * all, &density);
+    float density, t = single_seek(s, p, f, u, &density);
     if (!(density > 0.0f))
         return;
-    rgb value = rgb_scale(single_error(s, p, t), all / density);
+    rgb value = rgb_scale(single_error(s, p, t), 1.0f / density);
     if (rgb_is_black(value))
         return;
     value = rgb_mul(value, single_passes(s, p, f, t));
@@ -413,7 +489,7 @@ HD bool single_does(const flat_scene *s)
 {
     bool once = s->field.numbers > 0 ? !s->field.single
                                      : !s->media_multiple && !s->environment;
-    return s->scatters && once && !s->local_lights;
+    return s->scatters && once && (!s->local_lights || s->field.lit);
 }
 
 /* Whether rays that a surface sends on gather the cells as the eye's do: where
