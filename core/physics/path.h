@@ -202,8 +202,9 @@ HD void path_along(const flat_scene *s, path_state *p)
 }
 
 /* Radiance per incident radiance and solid angle, cosine included, of light
- * that bounces at the vertex; *pdf is path_bounce's density. */
-HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
+ * that bounces at the vertex; *pdf is the density of directions in proportion
+ * to it. */
+HD rgb path_bounce_own(const path_vertex *v, vec3 wi, float *pdf)
 {
     if (v->surface) {
         float cosine = vec3_dot(v->surface->ns, wi);
@@ -217,6 +218,36 @@ HD rgb path_bounce_eval(const path_vertex *v, vec3 wi, float *pdf)
     return rgb_gray(*pdf);
 }
 
+/* The same; *pdf is path_bounce's density. */
+HD rgb path_bounce_eval(const path_state *p, const path_vertex *v, vec3 wi,
+                        float *pdf)
+{
+    rgb value = path_bounce_own(v, wi, pdf);
+    if (scene_may(MAY_LAMPS))
+        *pdf = aim_mixed(&p->aim, wi, *pdf);
+    return value;
+}
+
+/* Where a path goes on from a vertex, a lamp that is near chooses the more of
+ * its directions the more is scattered there from the lamp's. */
+HD void path_aim(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    const float most = 0.5f;
+    float probability, pdf;
+    if (!path_has_lamps(s))
+        return;
+    int i = light_find(s, rng_float(&p->random), &probability);
+    vec3 to = vec3_sub(s->lights[i].position, v->p);
+    float distance = vec3_length(to);
+    if (!s->lights[i].local || !(probability > 0.0f) || !(distance > 0.0f))
+        return;
+    p->aim.to = vec3_scale(to, 1.0f / distance);
+    if (!path_faces(v, p->aim.to))
+        return;
+    path_bounce_own(v, p->aim.to, &pdf);
+    p->aim.share = most * hd_min(4.0f * LIGHT_PI * pdf, 1.0f);
+}
+
 /* Next-event estimation to the sky. Bounces that find it weigh by the rest. */
 HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
 {
@@ -226,7 +257,7 @@ HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
     vec3 wi = sky_choose(s, &p->random, &chosen);
     if (!(chosen > 0.0f) || !path_faces(v, wi))
         return;
-    rgb value = rgb_mul(path_bounce_eval(v, wi, &pdf), sky_radiance(s, wi));
+    rgb value = rgb_mul(path_bounce_eval(p, v, wi, &pdf), sky_radiance(s, wi));
     if (rgb_is_black(value))
         return;
     container_set set = p->inside;
@@ -236,11 +267,16 @@ HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / (chosen + pdf)));
 }
 
-/* A direction in proportion to how a diffuse surface or a medium scatters. */
+/* A direction in proportion to how a diffuse surface or a medium scatters, or
+ * as a lamp has it. */
 HD vec3 path_bounce_choose(const path_vertex *v, path_state *p)
 {
     float u, w, pdf;
     path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
+    float share = scene_may(MAY_LAMPS) ? p->aim.share : 0.0f;
+    if (u < share)
+        return aim_sample(&p->aim, u / share, w);
+    u = (u - share) / (1.0f - share);
     if (v->medium)
         return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, &pdf);
     return warp_frame_to_world(warp_frame(v->surface->ns),
@@ -256,7 +292,7 @@ HD void path_sky_alone(const flat_scene *s, path_state *p,
     path_sky(s, p, v);
     vec3 wi = path_bounce_choose(v, p);
     float pdf;
-    rgb value = rgb_mul(path_bounce_eval(v, wi, &pdf), sky_radiance(s, wi));
+    rgb value = rgb_mul(path_bounce_eval(p, v, wi, &pdf), sky_radiance(s, wi));
     if (!(pdf > 0.0f) || !path_faces(v, wi) || rgb_is_black(value))
         return;
     container_set set = p->inside;
@@ -306,7 +342,7 @@ HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
     vec3 wi = vec3_scale(to, 1.0f / t);
     if (!path_faces(v, wi))
         return;
-    rgb value = path_bounce_eval(v, wi, &pdf);
+    rgb value = path_bounce_eval(p, v, wi, &pdf);
     if (rgb_is_black(value))
         return;
     const flat_medium *m = &s->media[g.medium];
@@ -374,21 +410,33 @@ HD void path_turn(path_state *p, vec3 o, vec3 d, float pdf)
     p->depth = -1.0f;
     p->spread -= p->spread > 0;
     p->stretch.on = 0;
+    p->aim.share = 0.0f;
 }
 
-/* Russian roulette on the throughput; false ends the path. */
-HD bool path_survives(path_state *p)
+/* Below a fourth of what it set out with a path may end. */
+#define PATH_KEEPS 4.0f
+
+/* Russian roulette on the throughput where it is below 1 / `keeps`; false ends
+ * the path. */
+HD bool path_survives(path_state *p, float keeps)
 {
     float throughput = rgb_size(p->beta) / rgb_mean(may_gray(p->r_u));
     if (!(throughput > 0.0f))
         return false;
-    if (throughput >= 0.25f)
+    throughput *= keeps;
+    if (throughput >= 1.0f)
         return true;
-    float q = hd_max(throughput * 4.0f, 0.05f);
+    float q = hd_max(throughput, 0.05f);
     if (!rng_chance(&p->random, q))
         return false;
     p->beta = rgb_scale(p->beta, 1.0f / q);
     return true;
+}
+
+/* Near lamps throughput tells little of what is to come: paths go on. */
+HD bool path_goes_on(const flat_scene *s, path_state *p)
+{
+    return path_survives(p, path_has_lamps(s) ? 32.0f : PATH_KEEPS);
 }
 
 /* Thickness of all media at x, as a field of balls counts it. */
@@ -427,6 +475,21 @@ HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_mul(p->beta, light));
 }
 
+/* Goes on from a vertex: off a surface diffusely. */
+HD bool path_bounce(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    float pdf;
+    vec3 d = path_bounce_choose(v, p);
+    if (!path_faces(v, d))
+        return false;
+    rgb value = path_bounce_eval(p, v, d, &pdf);
+    if (!(pdf > 0.0f))
+        return false;
+    p->beta = rgb_mul(p->beta, rgb_scale(value, 1.0f / pdf));
+    path_turn(p, path_origin(v, d), d, pdf);
+    return path_goes_on(s, p);
+}
+
 HD bool path_scatter(const flat_scene *s, path_state *p,
                      const path_event *event)
 {
@@ -446,28 +509,16 @@ HD bool path_scatter(const flat_scene *s, path_state *p,
         path_sky_alone(s, p, &v);
         return false;
     }
+    path_aim(s, p, &v);
     path_glow(s, p, &v);
     path_sky(s, p, &v);
+    if (p->aim.share > 0.0f)
+        return path_bounce(s, p, &v);
     float pdf, u, w;
     path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
     vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u, w, &pdf);
     path_turn(p, v.p, d, pdf);
-    return path_survives(p);
-}
-
-/* Diffuse bounce off a surface. */
-HD bool path_bounce(path_state *p, const path_vertex *v)
-{
-    float pdf;
-    vec3 d = path_bounce_choose(v, p);
-    if (!path_faces(v, d))
-        return false;
-    rgb value = path_bounce_eval(v, d, &pdf);
-    if (!(pdf > 0.0f))
-        return false;
-    p->beta = rgb_mul(p->beta, rgb_scale(value, 1.0f / pdf));
-    path_turn(p, path_origin(v, d), d, pdf);
-    return path_survives(p);
+    return path_goes_on(s, p);
 }
 
 /* Chooses between passing straight through and the surface's own light in
@@ -509,9 +560,10 @@ HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
                 path_sky_alone(s, p, &v);
                 return false;
             }
+            path_aim(s, p, &v);
             path_glow(s, p, &v);
             path_sky(s, p, &v);
-            return path_bounce(p, &v);
+            return path_bounce(s, p, &v);
         }
     }
     shadow_cross(s, h, &p->inside);

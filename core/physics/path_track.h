@@ -2,6 +2,7 @@
  * two surfaces (see path.h). */
 #ifndef CORE_PHYSICS_PATH_TRACK_H
 #define CORE_PHYSICS_PATH_TRACK_H
+#include "core/physics/aim.h"
 #include "core/physics/glow.h"
 #include "core/physics/line.h"
 #include "core/physics/ray.h"
@@ -40,6 +41,7 @@ typedef struct {
     float boost;            /* scattering events of this segment are drawn
                                so many times as often, and weigh so much less */
     path_stretch stretch;
+    lamp_aim aim;           /* of the vertex that is being left            */
     float p_dir;            /* density per solid angle with which d was
                                chosen at o; 0: not chosen                  */
     vec3 o, d;

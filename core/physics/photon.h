@@ -247,7 +247,7 @@ HD vec3 photon_arrive(const flat_scene *s, photon_state *p,
 HD bool photon_roulette(photon_state *p, photon_counters *c)
 {
     double before = photon_power(p);
-    bool alive = path_survives(&p->path);
+    bool alive = path_survives(&p->path, PATH_KEEPS);
     photon_book(&c->books.roulette,
                 before - (alive ? photon_power(p) : 0.0));
     return alive;

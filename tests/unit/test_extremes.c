@@ -312,7 +312,7 @@ static void extremes__roulette(void **state)
         path_begin(&p, vec3_make(0, 0, 0), vec3_make(0, 0, 1), &nowhere, true,
                    rng_make(1, 0, 0, (uint64_t)i));
         p.beta = rgb_gray(1e-6f);
-        if (!path_survives(&p))
+        if (!path_survives(&p, PATH_KEEPS))
             continue;
         assert_true(p.beta.r <= 20.001e-6f);
         sum += (double)p.beta.r;

@@ -3,13 +3,40 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
+#include "core/physics/aim.h"
 #include "core/physics/warp.h"
 #include "tests/unit/sampler.h"
 
-enum { COSINE, SPHERE, CONE, DRAWS = 1 << 19 };
+enum { COSINE, SPHERE, CONE, AIM, DRAWS = 1 << 19 };
+
+/* A lamp that has g of all directions, the others go anywhere. */
+static lamp_aim aim_of(const struct sampler *s)
+{
+    return (lamp_aim){s->pole, s->g};
+}
+
+static vec3 draw_aimed(const struct sampler *s, float u, float v, float *pdf)
+{
+    lamp_aim aim = aim_of(s);
+    vec3 w = u < s->g ? aim_sample(&aim, u / s->g, v)
+                      : warp_sphere((u - s->g) / (1 - s->g), v);
+    *pdf = aim_mixed(&aim, w, warp_sphere_pdf());
+    return w;
+}
+
+/* (pi - angle)^3, as a density of angles. */
+static double aimed_density(const struct sampler *s, vec3 w)
+{
+    double sine = sqrt((double)w.x * w.x + (double)w.y * w.y);
+    double near = 1 - atan2(sine, w.z) / M_PI;
+    double angles = 4 / M_PI * near * near * near;
+    return s->g * angles / (2 * M_PI * sine) + (1 - s->g) / (4 * M_PI);
+}
 
 static vec3 draw(const struct sampler *s, float u, float v, float *pdf)
 {
+    if (s->kind == AIM)
+        return draw_aimed(s, u, v, pdf);
     vec3 w = s->kind == COSINE   ? warp_cosine_hemisphere(u, v)
              : s->kind == SPHERE ? warp_sphere(u, v)
                                  : warp_cone(u, v, s->g);
@@ -21,6 +48,8 @@ static vec3 draw(const struct sampler *s, float u, float v, float *pdf)
 
 static double density(const struct sampler *s, vec3 w)
 {
+    if (s->kind == AIM)
+        return aimed_density(s, w);
     if (s->kind == COSINE)
         return w.z > 0 ? w.z / M_PI : 0;
     if (s->kind == SPHERE)
@@ -40,7 +69,7 @@ static void check(struct sampler s, double integral_tolerance)
                   s.g, r.integral, r.z, r.claim);
     assert_true(fabs(r.integral - 1) < integral_tolerance);
     assert_true(r.z < 4.5);
-    assert_true(r.claim < 1e-6);
+    assert_true(r.claim < (s.kind == AIM ? 3e-6 : 1e-6));
     assert_true(r.length < 2.5e-7);
 }
 
@@ -52,6 +81,7 @@ static void test_warp__directions(void **state)
     check((struct sampler){.kind = CONE, .g = 2, .crowding = 1}, 1e-3);
     check((struct sampler){.kind = CONE, .g = 0.3f, .crowding = 1}, 2e-3);
     check((struct sampler){.kind = CONE, .g = 1e-6f, .crowding = 6}, 2e-3);
+    check((struct sampler){.kind = AIM, .g = 0.5f, .crowding = 3}, 2e-3);
 }
 
 /* Counts of a uniform law on a square of 16 x 16 bins; `inside` says where
