@@ -1,7 +1,7 @@
 /* ball_table.h - points of a ball of radius 1, even in volume and direction, by
  * multiples of powers of the generalised golden ratio, x^4 = x + 1 [Roberts
- * 2018]: each takes a sine, a cosine and a power, see tests/unit/test_photon_ball.c,
- * which prints them. */
+ * 2018]: each takes a sine, a cosine and a power, see
+ * tests/unit/test_photon_ball.c, which prints them. */
 #ifndef CORE_PHYSICS_BALL_TABLE_H
 #define CORE_PHYSICS_BALL_TABLE_H
 #include "core/physics/hd.h"

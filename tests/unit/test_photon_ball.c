@@ -462,8 +462,9 @@ static void photon_ball__distances_tell_shares(void **state)
         float size = i ? 0.5f * b.step : BALL_CORNER * b.step;
         float q[3];
         for (int k = 0; k < 3; k++)
-            q[k] = ((float)b.lo[k] + rng_float(&r) *
-                    (float)(b.hi[k] - b.lo[k])) * b.step;
+            q[k] = ((float)b.lo[k] +
+                    rng_float(&r) * (float)(b.hi[k] - b.lo[k])) *
+                   b.step;
         vec3 at = vec3_make(q[0], q[1], q[2]);
         vec3 off = vec3_sub(affine_point(&g.from_index, at), b.centre);
         float square = vec3_dot(off, off);
