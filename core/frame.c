@@ -635,7 +635,8 @@ static struct flat *prepare(brume_scene *scene,
                         .tree = options->tree,
                         .tree_stack = options->tree_stack,
                         .still = options->still,
-                        .later = leaves_tree(options)};
+                        .later = leaves_tree(options),
+                        .traced = options->integrator != BRUME_INTEGRATOR_PATH};
     if (!plate_fits(&scene->plate, options->width, options->height, err))
         return NULL;
     if (p.tree_stack == 0)

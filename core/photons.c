@@ -7,7 +7,7 @@
 /* Births of each source by which its power is judged. */
 #define PILOTS 512u
 
-static bool surfaces_glow(const flat_scene *s)
+bool photons_glow(const flat_scene *s)
 {
     for (uint64_t i = 0; i < s->shapes_count; i++)
         if (s->shapes[i].material >= 0) {
@@ -33,6 +33,11 @@ static void add_source(struct photons *p, int32_t kind, int32_t light)
     s->light = light;
 }
 
+bool photons_seek(const flat_scene *s)
+{
+    return s->reach.walls || photons_glow(s) || uniform_media_emit(s);
+}
+
 static void list_sources(const flat_scene *s, struct photons *p)
 {
     for (uint64_t i = 0; i < s->lights_count; i++)
@@ -41,7 +46,7 @@ static void list_sources(const flat_scene *s, struct photons *p)
         add_source(p, PHOTON_SKY, -1);
     if (s->glows_count > 0)
         add_source(p, PHOTON_GLOW, -1);
-    if (s->reach.walls || surfaces_glow(s) || uniform_media_emit(s))
+    if (photons_seek(s))
         add_source(p, PHOTON_BODY, -1);
 }
 

@@ -13,6 +13,13 @@ struct photons {
 /* Photons of a field. */
 uint64_t photons_asked(const struct brume_options *options);
 
+/* Whether surfaces have light of their own. */
+bool photons_glow(const flat_scene *scene);
+
+/* Whether births look for surfaces. The pilots that share photons out do too,
+ * on the host, so they ask for a tree there. */
+bool photons_seek(const flat_scene *scene);
+
 /* Lists the sources of the scene with their shares, for field `pass` of many,
  * or 0: none where nothing emits
  * toward it. */

@@ -1,5 +1,6 @@
 #include "core/plan.h"
 #include "core/order.h"
+#include "core/photons.h"
 #include "core/prepare.h"
 #include <math.h>
 #include <stdarg.h>
@@ -44,7 +45,9 @@ static bool needs_field(const struct flat *f)
 bool plan_layout(struct flat *flat, const struct brume_options *options,
                  struct brume_error *err)
 {
-    return !plan_stages(flat, options).photons ||
+    if (!plan_stages(flat, options).photons)
+        return true;
+    return (!photons_seek(&flat->view) || order_build(flat, err)) &&
            radiance_layout(flat, options, err);
 }
 

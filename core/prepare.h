@@ -15,6 +15,7 @@ struct prepare {
     int tree_stack;         /* entries                                     */
     struct brume_still *still;
     bool later;             /* a tree may be left to the backend           */
+    bool traced;            /* photons are                                */
     bool exact;             /* for queries: all numbers in double, and trees
                                of single shapes too                        */
 };

@@ -7,6 +7,7 @@
 #include "core/kdtree.h"
 #include "core/physics/bvh.h"
 #include "core/order.h"
+#include "core/photons.h"
 #include "core/plan.h"
 #include "core/prepare.h"
 #include "core/still.h"
@@ -455,13 +456,28 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
     return true;
 }
 
+/* Surfaces that have no end or glow: pilots of their photons look into the tree
+ * on the host (photons_seek). Where those of even media do, plan_layout builds
+ * it. */
+static bool has_births(const struct flat *f, const struct assembly *a)
+{
+    if (photons_glow(&f->view))
+        return true;
+    for (size_t i = 0; i < a->parts_count; i++)
+        if (f->shapes[i].material >= 0 && !box_is_bounded(&a->parts[i].seen))
+            return true;
+    return false;
+}
+
 static bool make_trees(const struct prepare *job, const struct assembly *a,
                        struct brume_error *err)
 {
     struct flat *f = job->flat;
+    flat_view(f);
     struct trees trees = {.of = NULL,
                           .later = job->later && !job->exact &&
-                                   plan_leaves_tree(f, job->tree)};
+                                   plan_leaves_tree(f, job->tree) &&
+                                   !(job->traced && has_births(f, a))};
     size_t most = f->shapes_count + f->triangles_count;
     if (most + f->shapes_count > UINT32_MAX)
         return brume_fail(err, BRUME_ERR_LIMIT, "more than 2^32 surfaces");
@@ -469,7 +485,6 @@ static bool make_trees(const struct prepare *job, const struct assembly *a,
     if (!items)
         return brume_fail(err, BRUME_ERR_MEMORY,
                           "out of memory for a tree over %zu surfaces", most);
-    flat_view(f);
     bool good = find_trees(job, a, &trees, err) &&
                 make_tree(job, a, &trees, items, err) &&
                 make_mesh_trees(job, a, &trees, items, err);

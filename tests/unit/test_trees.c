@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 #include "core/order.h"
+#include "core/plan.h"
 #include "core/prepare.h"
 #include "core/still.h"
 #include "tests/unit/tree_meshes.h"
@@ -271,6 +272,7 @@ static brume_scene *mesh_scene(struct mesh *mesh, double t)
     struct brume_error err = {0};
     brume_scene *scene = brume_scene_new(&err);
     struct brume_material paint = BRUME_MATERIAL_INIT;
+    memset(paint.ambient, 0, sizeof paint.ambient);
     struct brume_shape shape = BRUME_SHAPE_INIT;
     int id = brume_share_mesh(scene, mesh, &err);
     const double turned[3][4] = {{cos(t), -sin(t), 0.3 * t, t},
@@ -361,6 +363,59 @@ static void test_still__meshes(void **state)
     brume_still_free(still);
 }
 
+/* A tree is not left to a backend where births of photons look for surfaces. */
+static void test_order__photons(void **state)
+{
+    (void)state;
+    struct brume_error err = {0};
+    struct mesh *mesh = ply_load(spot, &err);
+    struct brume_options o = BRUME_OPTIONS_INIT;
+    for (int i = 0; i < 8; i++) {
+        bool photons = i & 1, glows = i & 2, walls = i & 4;
+        brume_scene *scene = mesh_scene(mesh, 0.4);
+        struct brume_globals g = BRUME_GLOBALS_INIT;
+        struct brume_medium m = BRUME_MEDIUM_INIT;
+        struct brume_material seen = BRUME_MATERIAL_INIT;
+        struct brume_shape air = BRUME_SHAPE_INIT, plane = BRUME_SHAPE_INIT;
+        struct brume_light l = BRUME_LIGHT_INIT;
+        g.media_multiple = true;
+        assert_true(brume_set_globals(scene, &g, &err));
+        l.location[1] = 10.0;
+        assert_true(brume_add_light(scene, &l, &err) >= 0);
+        for (int k = 0; k < 3; k++)
+            m.scattering[k] = 1.0;
+        for (int k = 0; k < 3; k++)
+            seen.emission[k] = glows ? 1.0f : 0.0f;
+        memset(seen.ambient, 0, sizeof seen.ambient);
+        int medium = brume_add_medium(scene, &m, &err);
+        air.kind = BRUME_SHAPE_SPHERE;
+        air.radius = 0.1;
+        air.hollow = true;
+        air.interior = brume_add_interior(scene, &medium, 1, &err);
+        air.material = -1;
+        assert_true(brume_add_shape(scene, &air, &err) >= 0);
+        if (glows || walls) {
+            plane.kind = walls ? BRUME_SHAPE_PLANE : BRUME_SHAPE_SPHERE;
+            plane.radius = 0.1;
+            plane.material = brume_add_material(scene, &seen, &err);
+            assert_true(brume_add_shape(scene, &plane, &err) >= 0);
+        }
+        o.integrator = photons ? BRUME_INTEGRATOR_PHOTON
+                               : BRUME_INTEGRATOR_PATH;
+        struct prepare with = {
+            .scene = scene, .later = true, .traced = photons};
+        struct flat *f = prepare_scene(&with, &err);
+        assert_non_null(f);
+        assert_true(plan_layout(f, &o, &err));
+        bool here = photons && (glows || walls);
+        assert_int_equal(order_count(f) == 0, here);
+        assert_int_equal(f->view.bvh_root >= 0, here);
+        flat_free(f);
+        brume_scene_free(scene);
+    }
+    mesh_free(mesh);
+}
+
 /* A tree that was left to a backend that builds none. */
 static void test_order__build(void **state)
 {
@@ -428,6 +483,7 @@ int main(void)
         cmocka_unit_test(test_still__meshes),
         cmocka_unit_test(test_still__renumbered),
         cmocka_unit_test(test_order__build),
+        cmocka_unit_test(test_order__photons),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
