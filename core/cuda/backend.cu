@@ -191,7 +191,8 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->photons = choose(photon_kernels, frame->stages->needs & ~PHOTONS_IGNORE);
     s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
     describe_job(&s->job, frame);
-    if (open_device(s, err) && upload_new(&s->to, err) &&
+    if (open_device(s, err) &&
+        upload_new(&s->to, resident_spare(s->kept), err) &&
         device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         tree_scene_build(s, err) && start_film(s, err) &&
         photons_open(s, err) && sample_warm(s, err) && photons_warm(s, err))

@@ -29,6 +29,7 @@ struct resident {
 struct resident_set {
     resident *first;
     uploader *to;
+    std::atomic<char *> spare{nullptr}; /* what uploads go through         */
     uint64_t uploaded, built, had;
 };
 
@@ -59,8 +60,10 @@ void drop(resident_set *set, int age)
 
 void release(void *set)
 {
-    drop(static_cast<resident_set *>(set), -1);
-    delete static_cast<resident_set *>(set);
+    resident_set *it = static_cast<resident_set *>(set);
+    drop(it, -1);
+    cudaFreeHost(it->spare.load());
+    delete it;
 }
 
 /* Where there is no room, what this frame does not use goes. */
@@ -192,6 +195,11 @@ resident_set *resident_of(brume_still *still)
     if (slot && !*slot)
         *slot = new (std::nothrow) resident_set();
     return slot ? static_cast<resident_set *>(*slot) : nullptr;
+}
+
+std::atomic<char *> *resident_spare(resident_set *set)
+{
+    return set ? &set->spare : nullptr;
 }
 
 bool resident_is_worth(const resident_set *set, size_t bytes)

@@ -13,6 +13,10 @@ struct resident_set;
 /* That of a film's worker, made if need be; NULL: there is none. */
 resident_set *resident_of(brume_still *still);
 
+/* Where the memory that uploads go through waits for the next frame; NULL of
+ * NULL. */
+std::atomic<char *> *resident_spare(resident_set *set);
+
 /* Whether an array of so many bytes is worth it. */
 bool resident_is_worth(const resident_set *set, size_t bytes);
 

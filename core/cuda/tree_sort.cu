@@ -1,5 +1,6 @@
 /* Sorting and sums of trees' builders, by CUB. */
 #include "core/cuda/tree.cuh"
+#define CCCL_DISABLE_NVTX
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 

@@ -1,5 +1,4 @@
 #include "core/cuda/upload.cuh"
-#include <atomic>
 #include <cstring>
 extern "C" {
 #include "lib/thread.h"
@@ -13,10 +12,6 @@ const size_t large = 2 * part_size;
 
 /* A gap that is no longer is sent along. */
 const size_t most_gap = 256;
-
-/* Memory that a device reads takes long to get: some waits here for the next
- * frame. */
-std::atomic<char *> spare(nullptr);
 
 char *part_of(const uploader *u, int i)
 {
@@ -78,10 +73,11 @@ bool follows(const uploader *u, const char *to)
 
 }
 
-bool upload_new(uploader *u, brume_error *err)
+bool upload_new(uploader *u, std::atomic<char *> *spare, brume_error *err)
 {
     *u = {};
-    void *memory = spare.exchange(nullptr);
+    u->spare = spare;
+    void *memory = spare ? spare->exchange(nullptr) : nullptr;
     bool kept = memory != nullptr;
     if (!device_check(cudaGetDevice(&u->device), "opening", err) ||
         (!memory &&
@@ -106,7 +102,9 @@ void upload_free(uploader *u)
             cudaEventSynchronize(u->gone[i]);
             cudaEventDestroy(u->gone[i]);
         }
-    char *old = u->memory ? spare.exchange(u->memory) : nullptr;
+    char *old = u->memory;
+    if (old && u->spare)
+        old = u->spare->exchange(old);
     if (old)
         cudaFreeHost(old);
     *u = {};

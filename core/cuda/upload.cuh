@@ -3,6 +3,7 @@
  * threads. A plain copy waits for a single thread of the driver's. */
 #ifndef CORE_CUDA_UPLOAD_CUH
 #define CORE_CUDA_UPLOAD_CUH
+#include <atomic>
 #include "core/cuda/device.cuh"
 
 /* Threads that fill parts, each two in turn. */
@@ -16,9 +17,11 @@ struct uploader {
     char *to;                   /* where it goes                           */
     size_t used;                /* so many bytes of it                     */
     size_t set_aside;           /* of the memory, anew                     */
+    std::atomic<char *> *spare; /* where it goes afterwards, or NULL       */
 };
 
-bool upload_new(uploader *u, brume_error *err);
+/* Memory that a device reads takes long to get: some may wait in *spare. */
+bool upload_new(uploader *u, std::atomic<char *> *spare, brume_error *err);
 void upload_free(uploader *u);
 /* `from` may change afterwards. What is small waits for its neighbours. */
 bool upload_put(uploader *u, void *to, const void *from, size_t bytes,
