@@ -168,8 +168,8 @@ bool fill(resident_set *set, resident *r, const void *host, brume_error *err)
     return good;
 }
 
-resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
-              brume_error *err)
+/* With memory, and nothing in it. */
+resident *make(resident_set *set, size_t bytes, uint64_t hash, brume_error *err)
 {
     resident *r = new (std::nothrow) resident();
     if (!r) {
@@ -178,13 +178,28 @@ resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
     }
     r->bytes = bytes;
     r->hash = hash;
-    if (!allocate(set, r, err) || !fill(set, r, host, err)) {
-        forget(r);
-        return nullptr;
-    }
+    if (allocate(set, r, err))
+        return r;
+    forget(r);
+    return nullptr;
+}
+
+resident *link(resident_set *set, resident *r)
+{
     r->next = set->first;
-    set->first = r;
-    return r;
+    return set->first = r;
+}
+
+resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
+              brume_error *err)
+{
+    resident *r = make(set, bytes, hash, err);
+    if (!r)
+        return nullptr;
+    if (fill(set, r, host, err))
+        return link(set, r);
+    forget(r);
+    return nullptr;
 }
 
 }
@@ -272,21 +287,11 @@ void *resident_find(resident_set *set, uint64_t hash, resident_note *note)
 void *resident_room(resident_set *set, uint64_t hash, size_t bytes,
                     brume_error *err)
 {
-    resident *r = new (std::nothrow) resident();
-    if (!r) {
-        brume_fail(err, BRUME_ERR_MEMORY, "out of memory");
+    resident *r = make(set, bytes, hash, err);
+    if (!r)
         return nullptr;
-    }
-    r->bytes = bytes;
-    r->hash = hash;
     r->made = true;
-    if (!allocate(set, r, err)) {
-        forget(r);
-        return nullptr;
-    }
-    r->next = set->first;
-    set->first = r;
-    return r->device;
+    return link(set, r)->device;
 }
 
 void resident_say(resident_set *set, uint64_t hash, const resident_note *note)
