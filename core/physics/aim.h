@@ -11,8 +11,6 @@
 #define CORE_PHYSICS_AIM_H
 #include "core/physics/warp.h"
 
-#define AIM_PI 3.14159265f
-
 typedef struct {
     vec3 to;                /* unit, toward the lamp                       */
     float share;            /* of directions that are chosen by it; or 0   */
@@ -32,7 +30,7 @@ HD vec3 aim_sample(const lamp_aim *a, float u, float v)
 {
     float s, c, half = sqrtf(1.0f - u), near = sqrtf(half);
     /* pi (1 - near), near^4 = 1 - u, without cancellation. */
-    fm_sincos(AIM_PI * u / ((1.0f + near) * (1.0f + half)), &s, &c);
+    fm_sincos(FM_PI * u / ((1.0f + near) * (1.0f + half)), &s, &c);
     return vec3_normalize(warp_frame_to_world(warp_frame(a->to),
                                               warp_around_z(c, s, v)));
 }

@@ -260,7 +260,7 @@ HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x)
     for (int i = 0; i < part_bound(b->count); i++) {
         const flat_medium *m = &s->media[b->medium[part_place(i)]];
         if (m->uniform && m->emits)
-            sum += 4.0f * LIGHT_PI *
+            sum += 4.0f * FM_PI *
                    rgb_mean(medium_source(s, m, &at,
                                           b->density[part_place(i)]));
     }

@@ -13,8 +13,6 @@
 #include "core/physics/scene.h"
 #include "core/physics/warp.h"
 
-#define LIGHT_PI 3.14159265f
-
 /* Of an area that tells in shadows only, light comes from the middle, but
  * what is in its way lies toward a lamp. */
 typedef struct {
@@ -161,7 +159,7 @@ HD bool light_choose(const flat_scene *s, vec3 p, rng *r, light_sample *out)
 /* 4 pi, by which a medium multiplies p C; pi in physical units. */
 HD float light_medium_factor(const flat_scene *s)
 {
-    return s->physical_units ? LIGHT_PI : 4.0f * LIGHT_PI;
+    return s->physical_units ? FM_PI : 4.0f * FM_PI;
 }
 
 #endif

@@ -245,7 +245,7 @@ HD void path_aim(const flat_scene *s, path_state *p, const path_vertex *v)
     if (!path_faces(v, p->aim.to))
         return;
     path_bounce_own(v, p->aim.to, &pdf);
-    p->aim.share = most * hd_min(4.0f * LIGHT_PI * pdf, 1.0f);
+    p->aim.share = most * hd_min(4.0f * FM_PI * pdf, 1.0f);
 }
 
 /* Next-event estimation to the sky. Bounces that find it weigh by the rest. */

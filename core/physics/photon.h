@@ -361,7 +361,7 @@ HD bool photon_bounce(const flat_scene *s, photon_state *p,
     if (first) {
         const flat_light *l = &s->lights[p->light];
         highlights = l->shadows && surface_has_highlight(at->material);
-        photon_arrive(s, p, c, h->t, LIGHT_PI / light_medium_factor(s));
+        photon_arrive(s, p, c, h->t, FM_PI / light_medium_factor(s));
     }
     double before = photon_power(p);
     rgb value = rgb_gray(0.0f);

@@ -182,7 +182,7 @@ HD vec3 photon_aim_disc(const flat_scene *s, vec3 d, float u, float v,
                         float *measure)
 {
     float r = s->reach.radius, wide = r * PHOTON_WIDE;
-    float area = LIGHT_PI * r * r, wide_area = LIGHT_PI * wide * wide;
+    float area = FM_PI * r * r, wide_area = FM_PI * wide * wide;
     warp_basis b = warp_frame(d);
     if (!s->reach.media) {
         *measure = area;
@@ -270,7 +270,7 @@ HD void photon_from_parallel(const flat_scene *s, photon_state *p,
     if (l->kind == LIGHT_CYLINDER && l->outer < s->reach.radius) {
         vec3 disc = vec3_scale(warp_disc(u[0], u[1]), l->outer);
         at = vec3_add(p->from, warp_frame_to_world(warp_frame(l->axis), disc));
-        measure = LIGHT_PI * l->outer * l->outer;
+        measure = FM_PI * l->outer * l->outer;
         float along = vec3_dot(vec3_sub(s->reach.centre, at), l->axis);
         at = vec3_mad(at, along, l->axis);
     } else {
@@ -335,7 +335,7 @@ HD void photon_from_glow(const flat_scene *s, photon_state *p, const float *u,
     const flat_medium *m = &s->media[g.medium];
     field_point x = field_point_make(s, m->lead, g.p);
     rgb q = medium_source(s, m, &x, medium_density(s, m, &x));
-    float scale = g.pdf > 0.0f ? 4.0f * LIGHT_PI / g.pdf : 0.0f;
+    float scale = g.pdf > 0.0f ? 4.0f * FM_PI / g.pdf : 0.0f;
     photon_start(s, p, g.p, warp_sphere(u[0], u[1]), rgb_scale(q, scale),
                  random);
     p->emission = 1;
@@ -471,7 +471,7 @@ HD void photon_from_body(const flat_scene *s, photon_state *p, const float *u,
     }
     if (!(c.all > 0.0f))
         return;
-    p->path.beta = rgb_scale(c.power, c.all * measure * 4.0f * LIGHT_PI);
+    p->path.beta = rgb_scale(c.power, c.all * measure * 4.0f * FM_PI);
     p->path.o = c.o;
     p->emission = c.emission;
     p->path.inside = c.inside;
