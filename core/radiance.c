@@ -1,6 +1,8 @@
 #include "core/radiance.h"
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 #include "core/physics/far.h"
 #include "core/physics/radiance.h"
 #include "core/physics/rng.h"
@@ -433,38 +435,56 @@ static bool lay_out(struct layout *l, double side, uint64_t room,
 struct look {
     const struct brume_options *options;
     const flat_scene *scene;
-    float *far; /* of each row                             */
+    int step;         /* between pixels                          */
+    atomic_uint most; /* the farthest, as the bits of a float    */
 };
+
+static float most_yet(struct look *job)
+{
+    unsigned bits = atomic_load_explicit(&job->most, memory_order_relaxed);
+    float far;
+    memcpy(&far, &bits, sizeof far);
+    return far;
+}
+
+/* Floats that are not negative are in the order of their bits. */
+static void keep_farther(struct look *job, float far)
+{
+    unsigned bits, most = atomic_load(&job->most);
+    memcpy(&bits, &far, sizeof bits);
+    while (bits > most &&
+           !atomic_compare_exchange_weak(&job->most, &most, bits))
+        ;
+}
 
 static void look_along_row(void *context, size_t index, int thread)
 {
     (void)thread;
-    const struct look *job = context;
+    struct look *job = context;
     const struct brume_options *o = job->options;
-    for (int x = 0; x < o->width; x++)
-        job->far[index] = fmaxf(
-            job->far[index],
-            far_of_pixel(job->scene, o->width, o->height, x, (int)index));
+    int y = (int)index * job->step;
+    for (int x = 0; x < o->width; x += job->step)
+        keep_farther(job, far_of_pixel(job->scene, o->width, o->height, x, y,
+                                       most_yet(job)));
 }
 
-/* The farthest that a pixel's middle sees of media. */
-static bool find_far(struct layout *l, const struct brume_options *options,
-                     struct brume_error *err)
+/* The farthest that a pixel's middle sees of media. A few pixels tell nearly
+ * as much as all: whoever comes after them sees soon that he sees no farther.
+ * Which is seen first changes what that takes, but not the answer. */
+static void find_far(struct layout *l, const struct brume_options *options)
 {
+    enum { FEW = 16 };
     l->field.far = INFINITY;
     if (!l->options->far_plane || !l->seen || l->snap || options->height < 1)
-        return true;
-    struct look job = {options, &l->flat->view, NULL};
-    job.far = memory_new((size_t)options->height, sizeof *job.far, err);
-    if (!job.far)
-        return false;
-    parallel_for(options->threads, (size_t)options->height, look_along_row,
-                 &job, NULL);
-    l->field.far = 0.0f;
-    for (int i = 0; i < options->height; i++)
-        l->field.far = fmaxf(l->field.far, job.far[i]);
-    free(job.far);
-    return true;
+        return;
+    struct look job = {.options = options, .scene = &l->flat->view};
+    for (int step = FEW; step >= 1; step /= FEW) {
+        job.step = step;
+        parallel_for(options->threads,
+                     (size_t)((options->height + step - 1) / step),
+                     look_along_row, &job, NULL);
+    }
+    l->field.far = most_yet(&job);
 }
 
 static struct layout begin(struct flat *flat,
@@ -501,8 +521,10 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
     double side = side_of(&l);
     if (l.snap)
         side = snap_side(flat, side);
-    return check_options(&l, err) && find_far(&l, options, err) &&
-           lay_out(&l, side, room_for(&l, options->memory), err);
+    if (!check_options(&l, err))
+        return false;
+    find_far(&l, options);
+    return lay_out(&l, side, room_for(&l, options->memory), err);
 }
 
 /* Without a field, as before the first. */

@@ -14,6 +14,7 @@
  * what is emitted where they pass. */
 #ifndef CORE_PHYSICS_BALL_CELL_H
 #define CORE_PHYSICS_BALL_CELL_H
+#include "core/physics/ball_glow.h"
 #include "core/physics/ball_table.h"
 #include "core/physics/inside.h"
 #include "core/physics/path.h"
@@ -126,127 +127,6 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
         sum = rgb_add(sum, rgb_scale(sigma, phase));
     }
     return rgb_scale(sum, light_medium_factor(s) / b->thickness);
-}
-
-/* ---- births ------------------------------------------------------------- */
-
-/* A ball over voxels, each cut in so many parts along an axis. */
-typedef struct {
-    vec3 centre;
-    float radius, step;
-    int parts, lo[3], hi[3];    /* parts that it may touch: lo to hi - 1   */
-    float near[2], far[2];  /* squares of distances of middles, of a part and
-                               of its eighths: no farther off, all of it is in
-                               the ball; no nearer, nothing                */
-} ball_box;
-
-/* No less than what an affine map makes of a length of 1. */
-HD float ball_stretch(const affine *map)
-{
-    const float *m = map->m;
-    float rows = 0.0f, columns = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        rows = hd_max(rows, fabsf(m[4 * i]) + fabsf(m[4 * i + 1]) +
-                            fabsf(m[4 * i + 2]));
-        columns = hd_max(columns, fabsf(m[i]) + fabsf(m[4 + i]) +
-                                  fabsf(m[8 + i]));
-    }
-    return sqrtf(rows * columns);
-}
-
-/* From where on ball_share is 1 and 0, with room for rounding. */
-HD void ball_limit(ball_box *b, int i, float size, float stretch)
-{
-    float half = 0.501f * size * stretch, near = b->radius - half;
-    b->near[i] = near > 0.0f ? near * near : -1.0f;
-    b->far[i] = (b->radius + half) * (b->radius + half);
-}
-
-/* Of a part's diagonal. */
-#define BALL_CORNER 1.7320508f
-
-HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
-{
-    ball_box b;
-    vec3 at = affine_point(&g->to_index, x), half;
-    const float *m = g->to_index.m;
-    half.x = r * vec3_length(vec3_make(m[0], m[1], m[2]));
-    half.y = r * vec3_length(vec3_make(m[4], m[5], m[6]));
-    half.z = r * vec3_length(vec3_make(m[8], m[9], m[10]));
-    float least = hd_min(half.x, hd_min(half.y, half.z));
-    b.centre = x;
-    b.radius = r;
-    b.parts = least < 1.0f ? 4 : least < 2.0f ? 2 : 1;
-    b.step = 1.0f / (float)b.parts;
-    float stretch = ball_stretch(&g->from_index);
-    ball_limit(&b, 0, BALL_CORNER * b.step, stretch);
-    ball_limit(&b, 1, 0.5f * b.step, stretch);
-    for (int i = 0; i < 3; i++) {
-        float a = vec3_get(at, i), h = vec3_get(half, i) + 0.5f;
-        b.lo[i] = hd_floor((a - h) * (float)b.parts);
-        b.hi[i] = hd_floor((a + h) * (float)b.parts) + 1;
-    }
-    return b;
-}
-
-/* Share of a cube, its middle `off` from the ball's, of that size in voxels,
- * that lies in the ball: as if the ball's face were flat there, and the cube
- * turned toward it. */
-HD float ball_share(const flat_glow *g, const ball_box *b, vec3 off,
-                    float size)
-{
-    float distance = vec3_length(off);
-    float wide = vec3_length(affine_vector(&g->to_index, off));
-    float inside = (b->radius - distance) * wide;
-    if (!(distance * size > 0.0f))
-        return 1.0f;
-    return hd_min(hd_max(0.5f + inside / (distance * size), 0.0f), 1.0f);
-}
-
-/* The same around q, where most cubes' distance tells it. */
-HD float ball_share_at(const flat_glow *g, const ball_box *b, vec3 q, int i,
-                       float size)
-{
-    vec3 off = vec3_sub(affine_point(&g->from_index, q), b->centre);
-    float square = vec3_dot(off, off);
-    if (square >= b->far[i])
-        return 0.0f;
-    return square <= b->near[i] ? 1.0f : ball_share(g, b, off, size);
-}
-
-/* The same of a part of a voxel, by its eighths where it is at the face. */
-HD float ball_part(const flat_glow *g, const ball_box *b, vec3 q)
-{
-    float whole = ball_share_at(g, b, q, 0, BALL_CORNER * b->step), sum = 0.0f;
-    if (whole <= 0.0f || whole >= 1.0f)
-        return whole;
-    for (int i = 0; i < 8; i++) {
-        float h = 0.25f * b->step;
-        vec3 off = vec3_make(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h);
-        sum += ball_share_at(g, b, vec3_add(q, off), 1, 0.5f * b->step);
-    }
-    return 0.125f * sum;
-}
-
-/* Mean of glow_pdf over a ball, of a list. */
-HD float ball_glow(const flat_scene *s, const flat_glow *g, vec3 x, float r)
-{
-    ball_box b = ball_box_make(g, x, r);
-    double sum = 0.0, all = 0.0;
-    for (int k = b.lo[2]; k < b.hi[2]; k++)
-        for (int j = b.lo[1]; j < b.hi[1]; j++)
-            for (int i = b.lo[0]; i < b.hi[0]; i++) {
-                vec3 q = vec3_make((float)i + 0.5f, (float)j + 0.5f,
-                                   (float)k + 0.5f);
-                q = vec3_scale(q, b.step);
-                float share = ball_part(g, &b, q);
-                if (!(share > 0.0f))
-                    continue;
-                vec3 p = affine_point(&g->from_index, q);
-                all += (double)share;
-                sum += (double)(share * glow_pdf(s, g, p));
-            }
-    return all > 0.0 ? (float)(sum / all) : 0.0f;
 }
 
 /* Power of births that is to be expected, over the volume of the ball. */

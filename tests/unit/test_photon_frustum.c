@@ -1,9 +1,10 @@
 /* Cells of the field that the eye can see, and photons that they gather,
  * counted by brute force. */
-#include "tests/unit/truth.h"
+#include "tests/unit/heap_scene.h"
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
+#include "core/physics/far.h"
 #include "core/plan.h"
 #include "core/prepare.h"
 #include "core/radiance.h"
@@ -226,12 +227,125 @@ static void photon_frustum__far_plane_changes_nothing_seen(void **state)
     }
 }
 
+/* ---- the far plane ------------------------------------------------------ */
+
+/* A thin heap beside a thick one, whose back is hidden. */
+static brume_scene *two_heaps(void)
+{
+    struct brume_globals g = BRUME_GLOBALS_INIT;
+    g.media_multiple = true;
+    brume_scene *s = truth_scene(&g, 3.0, 0.7);
+    struct brume_medium m = truth_medium(1.0, 3.0, 0.0);
+    for (int i = 0; i < 2; i++) {
+        m.density[0] = heap_add(s, 32, i ? 0.02 : 0.001, i ? 6.0 : 15.0);
+        m.densities = 1;
+        m.scattering[0] = m.scattering[1] = m.scattering[2] = i ? 3.0 : 90.0;
+        truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    }
+    heap_sun(s);
+    return s;
+}
+
+/* As each pixel tells by itself, whoever is asked first. */
+static void photon_frustum__far_is_the_farthest_of_all(void **state)
+{
+    (void)state;
+    brume_scene *s = two_heaps();
+    struct brume_options o = options(BRUME_GATHER_TALLY, true);
+    o.width = 47;
+    o.height = 35;
+    float most = 0.0f, least = INFINITY;
+    struct flat *f = lay_out(s, &o);
+    for (int i = 0; i < o.width * o.height; i++) {
+        float far = far_of_pixel(&f->view, o.width, o.height, i % o.width,
+                                 i / o.width, 0.0f);
+        most = fmaxf(most, far);
+        least = fminf(least, far);
+    }
+    assert_true(least < 0.8f * most);
+    for (o.threads = 1; o.threads <= 3; o.threads++) {
+        flat_free(f);
+        f = lay_out(s, &o);
+        if (!(f->view.field.far == most))
+            fail_msg("%d threads: %.9g, not %.9g", o.threads,
+                     (double)f->view.field.far, (double)most);
+    }
+    flat_free(f);
+    brume_scene_free(s);
+}
+
+/* A plate before the depth where the box is opaque, of that alpha. */
+static void hang_plate(brume_scene *s, float depth, float alpha)
+{
+    static float color[3 * PIXELS], alphas[PIXELS], depths[PIXELS];
+    struct brume_plate p = BRUME_PLATE_INIT;
+    for (int i = 0; i < PIXELS; i++) {
+        color[3 * i] = color[3 * i + 1] = color[3 * i + 2] = 0.02f;
+        alphas[i] = alpha;
+        depths[i] = depth;
+    }
+    p.width = p.height = SIDE;
+    p.radiance = color;
+    p.alpha = alphas;
+    p.depth = depths;
+    assert_true(brume_set_plate(s, &p, truth_error()));
+}
+
+/* Behind what a plate covers nothing is seen; one that passes a part leaves as
+ * much less to be seen. */
+static void photon_frustum__plates_hide_what_is_behind(void **state)
+{
+    (void)state;
+    const double depth = NEAR + 1.5;
+    const float alpha[2] = {1.0f, 0.9f};
+    for (int i = 0; i < 2; i++) {
+        brume_scene *s = deep_box();
+        struct brume_options o = options(BRUME_GATHER_TALLY, true);
+        hang_plate(s, (float)depth, alpha[i]);
+        struct flat *f = lay_out(s, &o);
+        double far = (double)f->view.field.far;
+        double truth = i == 0 ? depth * f->unit
+                              : far_truth(f, 9.21034 + log(0.1));
+        double part = i == 0 ? 1e-5 : DEEP / 20.0 * f->unit;
+        if (!(far >= 0.97 * truth && far <= truth + part))
+            fail_msg("alpha %g: %g, not %g", (double)alpha[i], far, truth);
+        flat_free(f);
+        brume_scene_free(s);
+    }
+}
+
+/* ... in the picture. */
+static void photon_frustum__what_plates_hide_changes_nothing(void **state)
+{
+    (void)state;
+    float first[3 * PIXELS];
+    uint64_t cells[2];
+    for (int far = 0; far < 2; far++) {
+        brume_scene *s = deep_box();
+        struct brume_frame f;
+        struct brume_options o = options(BRUME_GATHER_TALLY, far != 0);
+        hang_plate(s, (float)(NEAR + 1.5), 1.0f);
+        assert_true(brume_render(s, &o, &f, truth_error()));
+        cells[far] = f.stats.photons.cells;
+        for (int i = 0; far && i < 3 * PIXELS; i++)
+            if (!(fabsf(f.radiance[i] - first[i]) <= 1e-6f * first[i]))
+                fail_msg("%g for %g", (double)f.radiance[i], (double)first[i]);
+        memcpy(first, f.radiance, sizeof first);
+        brume_frame_free(&f);
+        brume_scene_free(s);
+    }
+    assert_true(cells[1] < cells[0] / 4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(photon_frustum__cells_are_those_in_view),
         cmocka_unit_test(photon_frustum__photons_stored_are_those_gathered),
         cmocka_unit_test(photon_frustum__far_plane_changes_nothing_seen),
+        cmocka_unit_test(photon_frustum__far_is_the_farthest_of_all),
+        cmocka_unit_test(photon_frustum__plates_hide_what_is_behind),
+        cmocka_unit_test(photon_frustum__what_plates_hide_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
