@@ -19,8 +19,9 @@ struct shot {
     uint32_t number;
     brume_scene *scene; /* until it is prepared                        */
     struct brume_options options;
-    bool picture; /* will be asked for                           */
-    bool open;    /* the job is                                  */
+    struct brume_still *still; /* of its options as they were given        */
+    bool picture;              /* will be asked for                           */
+    bool open;                 /* the job is                                  */
     struct frame_job job;
     struct brume_frame out;
     bool traced; /* the field below is there                    */
@@ -56,7 +57,8 @@ struct worker {
     pthread_t thread;
     int number;                /* also of its device                   */
     struct brume_still *still; /* of all but the first, who have that
-                                  of the options                       */
+                                  of the options; it lies on the device,
+                                  and so is freed by the worker        */
     struct filter_scratch *scratch;
 };
 
@@ -172,11 +174,17 @@ static bool keep_field(struct brume_film *film, struct shot *shot)
     return true;
 }
 
+/* What stays on a device stays on that of the worker who looks for it. */
+static void use_still(const struct worker *worker, struct shot *shot)
+{
+    if (shot->still)
+        shot->options.still = worker->still ? worker->still : shot->still;
+}
+
 static bool open_job(const struct worker *worker, struct shot *shot)
 {
     shot->open = true;
-    if (worker->still && shot->options.still)
-        shot->options.still = worker->still;
+    use_still(worker, shot);
     bool good = frame_open(&shot->job, shot->scene, &shot->options, &shot->out,
                            &shot->err);
     brume_scene_free(shot->scene);
@@ -296,6 +304,7 @@ static bool render_shot(const struct worker *worker, const struct task *task,
         *err = shot->err;
         return false;
     }
+    use_still(worker, shot);
     return (!shot->traced || filter_shot(worker, task, shot, err)) &&
            frame_render(&shot->job, shot->traced, err);
 }
@@ -391,6 +400,7 @@ static void *run(void *context)
     }
     pthread_mutex_unlock(&film->lock);
     filter_scratch_release(&scratch);
+    brume_still_free(worker->still);
     return NULL;
 }
 
@@ -470,10 +480,8 @@ static void stop_workers(struct brume_film *film)
     film->quit = true;
     pthread_cond_broadcast(&film->work);
     pthread_mutex_unlock(&film->lock);
-    for (int i = 0; i < film->workers; i++) {
+    for (int i = 0; i < film->workers; i++)
         pthread_join(film->worker[i].thread, NULL);
-        brume_still_free(film->worker[i].still);
-    }
     free(film->worker);
 }
 
@@ -551,6 +559,7 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
     shot->scene = scene;
     shot->picture = picture;
     shot->options = *options;
+    shot->still = options->still;
     shot->options.progress = on_progress;
     shot->options.warn = on_warn;
     shot->options.user = film;

@@ -26,6 +26,7 @@ object { Land scale 0.3 rotate 90 * clock * y translate y
     pigment { rgb 0.9 } }
 """
 FRAMES = 4
+DEALT = 12     # frames of films that two GPUs share
 
 
 class Films:
@@ -175,16 +176,21 @@ def frame_seconds(frame):
             photons["seconds_filter"])
 
 
-def filter_row(films, temporal, aim):
-    """Of t4-smoke at its published size, frames that have all neighbours."""
-    scene = films.path("smoke.ini")
-    with open(scene, "w") as f:
+def smoke(films):
+    """An INI file of t4-smoke."""
+    path = films.path("smoke.ini")
+    with open(path, "w") as f:
         f.write("Input_File_Name = " + os.path.join(
             os.path.dirname(os.path.dirname(os.path.abspath(__file__))),
             "bench", "t4-smoke.pov"))
+    return path
+
+
+def filter_row(films, temporal, aim):
+    """Of t4-smoke at its published size, frames that have all neighbours."""
     films.forget("whole")
     _, frames = films.finish(
-        scene, "whole", ["+KFI1", "+KFF30", "+SF12", "+EF17", "+W640", "+H480",
+        smoke(films), "whole", ["+KFI1", "+KFF30", "+SF12", "+EF17", "+W640", "+H480",
                          "--integrator", "photon", "--photons", "100000",
                          "--spp", "16", "--temporal", temporal])
     filters = sum(f["photons"]["seconds_filter"] for f in frames[1:])
@@ -219,6 +225,45 @@ def memory_row(films):
             "passed": taken[0] > 0 and max(taken[2:]) == 0}
 
 
+def devices():
+    """GPUs of this machine."""
+    said = subprocess.run(["nvidia-smi", "-L"], capture_output=True, text=True)
+    return said.stdout.count("GPU ") if said.returncode == 0 else 0
+
+
+def deal_row(films, what, scene, words):
+    """Dealt to two GPUs, beside one: the same bytes."""
+    if devices() < 2:
+        return {"what": what, "how": "2 GPUs", "passed": "skipped: one GPU"}
+    seconds = {}
+    for gpus, name in ((1, "whole"), (2, "part")):
+        films.forget(name)
+        seconds[gpus], frames = films.finish(
+            scene, name, ["+W640", "+H480", "--gpus", str(gpus), *words])
+        dealt = {frame["device"] for frame in frames}
+    good, count = films.same("part", "whole")
+    return {"what": what, "how": "2 GPUs", "seconds": round(seconds[2], 2),
+            "one": round(seconds[1], 2), "same": f"{good} of {DEALT}",
+            "passed": good == count == DEALT and len(dealt) == 2}
+
+
+def deal_rows(films):
+    """With what stays on a device, grids, meshes and trees, and a filter that
+    takes fields that the other one made."""
+    film = [f"+KFF{DEALT}"]
+    photon = film + ["--integrator", "photon", "--transport", "full",
+                     "--photons", "1000000", "--spp", "64"]
+    out = [deal_row(films, "fog", films.scene("fog", FOG), photon),
+           deal_row(films, "meshes", films.scene("meshes", MESHES), film + [
+               "--integrator", "path", "--spp", "256"]),
+           deal_row(films, "meshes in fog, filtered",
+                    films.scene("both", MESHES + FOG[FOG.index("sphere"):]),
+                    photon)]
+    if os.path.exists(os.path.join(films.bench, "t4-smoke_30.vdb")):
+        out.append(deal_row(films, "grids, filtered", smoke(films), photon))
+    return out
+
+
 def rows(brume, room, bench):
     films = Films(brume, room, bench)
     scene = films.scene("fog", FOG)
@@ -232,7 +277,8 @@ def rows(brume, room, bench):
                 (("3", 0.05), ("5", 0.05), ("adaptive", 0.1))]
     out.append(upload_row(films))
     out.append(memory_row(films))
+    out += deal_rows(films)
     return [{key: row.get(key, "") for key in
-             ("what", "how", "seconds", "codes", "worst ms", "kept", "same",
+             ("what", "how", "seconds", "one", "codes", "worst ms", "kept", "same",
               "kills", "torn", "ms", "share %", "first", "later", "passed")}
             for row in out]
