@@ -228,6 +228,9 @@ static void check_measure(const struct options *o, struct diag *diag)
     if (!temporal && o->more_photons[0] > 0)
         diag_error(diag, BRUME_ERR_USAGE,
                    "several --photons are for 'brume measure --temporal'");
+    if (!temporal && o->repeat > 0)
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "--repeat is for 'brume measure --temporal'");
     if (measure && o->output && strcmp(o->output, "-") == 0)
         diag_error(diag, BRUME_ERR_USAGE,
                    "'brume measure' writes files; name them by +O");

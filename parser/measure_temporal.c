@@ -30,6 +30,7 @@ struct take {
     const struct measure_temporal *m;
     struct measure_filter *row; /* NULL: of a reference            */
     int which;                  /* filter, or reference            */
+    int repeat;                 /* with noise of its own           */
     uint64_t photons;
     bool moved;      /* some medium had a velocity      */
     float **picture; /* of each frame so far            */
@@ -63,6 +64,7 @@ static void adjust(void *user, struct brume_options *o)
         o->photons.count = BRUME_DEFAULT_PHOTONS;
     if (take->row) {
         take->row->photons = o->photons.count;
+        o->seed += (uint64_t)take->repeat;
         choose_filter(take, &o->photons);
         return;
     }
@@ -121,33 +123,122 @@ static enum brume_code render(struct reel *reel, struct take *take,
     return code;
 }
 
-/* One more row, unless the filter is the same as one before it. */
-static enum brume_code measure_row(struct measure_temporal *m,
-                                   struct reel *reel, uint64_t photons,
-                                   int which, const struct take reference[2],
-                                   bool *moved)
+/* ---- rows --------------------------------------------------------------- */
+
+/* Of the energy of differences, where `left` of their size is left. */
+static double lost(double left, double none)
 {
-    struct measure_filter *row = &m->row[m->rows];
-    struct take take = {.m = m, .row = row, .which = which, .photons = photons};
+    return 1.0 - left * fabs(left) / (none * none);
+}
+
+/* The n-th number of a mean. */
+static void add_mean(double *mean, double x, int n)
+{
+    *mean += (x - *mean) / n;
+}
+
+static void add_loss(struct measure_loss *loss, double x, int n)
+{
+    double before = x - loss->mean;
+    add_mean(&loss->mean, x, n);
+    loss->square += before * (x - loss->mean);
+    loss->error = n > 1 ? sqrt(loss->square / (n - 1) / n) : (double)NAN;
+}
+
+/* One more repeat; `none` is that of no filter. */
+static void add_film(struct measure_filter *row, const struct flicker *film,
+                     const struct flicker *none, double seconds)
+{
+    int n = ++row->repeats;
+    struct flicker *mean = &row->flicker;
+    add_mean(&mean->error, film->error, n);
+    add_mean(&mean->deviation, film->deviation, n);
+    add_mean(&mean->difference, film->difference, n);
+    add_mean(&mean->band, film->band, n);
+    add_mean(&mean->motion, film->motion, n);
+    add_mean(&mean->detail, film->detail, n);
+    add_mean(&row->seconds, seconds, n);
+    add_loss(&row->detail, lost(film->detail, none->detail), n);
+    add_loss(&row->motion, lost(film->motion, none->motion), n);
+}
+
+/* Renders a film of a row and measures it. */
+static enum brume_code measure_film(struct reel *reel, struct take *take,
+                                    const struct take reference[2],
+                                    struct flicker *none)
+{
     struct brume_error err = {0};
-    if (which == IN_PLACE && !*moved)
-        return BRUME_OK;
-    m->rows++;
-    row->name = filters[which].name;
-    enum brume_code code = render(reel, &take, &row->seconds);
-    row->filter_seconds /= (double)(take.count > 0 ? take.count : 1);
-    *moved = take.moved;
+    struct flicker found;
+    double seconds;
+    enum brume_code code = render(reel, take, &seconds);
     const struct flicker_film film = {
-        take.width,
-        take.height,
-        (int)take.count,
-        (const float *const *)take.picture,
+        take->width,
+        take->height,
+        (int)take->count,
+        (const float *const *)take->picture,
         {(const float *const *)reference[0].picture,
          (const float *const *)reference[1].picture}};
-    if (!code && !flicker_find(&film, &row->flicker, &err))
-        code = reel_fail(reel, &err);
-    release(&take);
+    if (code)
+        return code;
+    if (!flicker_find(&film, &found, &err))
+        return reel_fail(reel, &err);
+    if (take->which == 0)
+        *none = found;
+    add_film(take->row, &found, none, seconds);
+    return BRUME_OK;
+}
+
+/* One film with each filter, all with the same noise: one that is the same as
+ * another is left out. */
+static enum brume_code measure_filters(struct measure_temporal *m,
+                                       struct reel *reel, uint64_t photons,
+                                       int repeat,
+                                       const struct take reference[2])
+{
+    enum brume_code code = BRUME_OK;
+    bool moved = false;
+    struct flicker none = {0};
+    for (int i = 0; !code && i < MEASURE_FILTERS; i++) {
+        struct measure_filter *row = &m->row[m->rows + i];
+        struct take take = {.m = m,
+                            .row = row,
+                            .which = i,
+                            .repeat = repeat,
+                            .photons = photons};
+        if (i == IN_PLACE && !moved)
+            break;
+        row->name = filters[i].name;
+        code = measure_film(reel, &take, reference, &none);
+        moved = take.moved;
+        release(&take);
+    }
     return code;
+}
+
+static uint64_t fewest(const struct measure_temporal *m)
+{
+    uint64_t few = m->photons[0];
+    for (int k = 1; k < OPTIONS_MOST_PHOTONS && m->photons[k] > 0; k++)
+        few = m->photons[k] < few ? m->photons[k] : few;
+    return few;
+}
+
+/* Where there are more photons their noise is less: no more of them in all. */
+static int repeats_of(const struct measure_temporal *m, uint64_t photons)
+{
+    uint64_t few = fewest(m), all = (uint64_t)m->repeat * few;
+    if (m->repeat < 2 || photons == few)
+        return m->repeat < 1 ? 1 : m->repeat;
+    return all / photons < 1 ? 1 : (int)(all / photons);
+}
+
+/* The seconds of filters are sums over all films and frames so far. */
+static void end_rows(struct measure_temporal *m)
+{
+    while (m->rows < MEASURE_ROWS && m->row[m->rows].repeats > 0) {
+        struct measure_filter *row = &m->row[m->rows++];
+        row->filter_seconds /= (double)row->repeats * m->frames;
+    }
 }
 
 static enum brume_code measure_rows(struct measure_temporal *m,
@@ -155,12 +246,13 @@ static enum brume_code measure_rows(struct measure_temporal *m,
                                     const struct take reference[2])
 {
     enum brume_code code = BRUME_OK;
-    for (int k = 0; k < OPTIONS_MOST_PHOTONS; k++) {
-        bool moved = false;
+    for (int k = 0; !code && k < OPTIONS_MOST_PHOTONS; k++) {
         if (k > 0 && m->photons[k] == 0)
             break;
-        for (int i = 0; !code && i < MEASURE_FILTERS; i++)
-            code = measure_row(m, reel, m->photons[k], i, reference, &moved);
+        int repeats = repeats_of(m, m->photons[k]);
+        for (int i = 0; !code && i < repeats; i++)
+            code = measure_filters(m, reel, m->photons[k], i, reference);
+        end_rows(m);
     }
     return code;
 }
@@ -202,16 +294,20 @@ static bool write_csv(const struct measure_temporal *m, struct brume_error *err)
         return false;
     FILE *to = output_stream(out);
     fputs("photons,temporal,error,flicker,difference,band,motion,detail,"
-          "seconds,filter_seconds,ring_bytes\n",
+          "seconds,filter_seconds,ring_bytes,repeats,lost_detail,"
+          "lost_detail_error,lost_motion,lost_motion_error\n",
           to);
     for (int i = 0; i < m->rows; i++) {
         const struct measure_filter *r = &m->row[i];
         const struct flicker *x = &r->flicker;
         fprintf(to,
-                "%llu,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%llu\n",
+                "%llu,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%llu,"
+                "%d,%.6g,%.6g,%.6g,%.6g\n",
                 (unsigned long long)r->photons, r->name, x->error, x->deviation,
                 x->difference, x->band, x->motion, x->detail, r->seconds,
-                r->filter_seconds, (unsigned long long)r->ring);
+                r->filter_seconds, (unsigned long long)r->ring, r->repeats,
+                r->detail.mean, r->detail.error, r->motion.mean,
+                r->motion.error);
     }
     return output_commit(out, err);
 }
@@ -250,10 +346,14 @@ static void percent(double value, FILE *to)
         fprintf(to, " %8s", "-");
 }
 
-/* Of the energy of differences, where `left` of their size is left. */
-static double lost(double left, double none)
+/* With its standard error, where it has one. */
+static void put_loss(const struct measure_loss *loss, FILE *to)
 {
-    return 1.0 - left * fabs(left) / (none * none);
+    percent(loss->mean, to);
+    if (isfinite(loss->error))
+        fprintf(to, " +-%4.2f", 100.0 * loss->error);
+    else
+        fprintf(to, " %6s", "");
 }
 
 static void put_row(const struct measure_filter *r,
@@ -265,8 +365,8 @@ static void put_row(const struct measure_filter *r,
     percent(x->error, to);
     percent(x->deviation, to);
     fprintf(to, " %7.3f %7.3f", part * part, x->difference / y->difference);
-    percent(lost(x->detail, y->detail), to);
-    percent(lost(x->motion, y->motion), to);
+    put_loss(&r->detail, to);
+    put_loss(&r->motion, to);
     fprintf(to, " %8.3g", r->seconds);
     percent(r->filter_seconds / r->seconds, to);
     fputc('\n', to);
@@ -282,7 +382,8 @@ void measure_temporal_table(const struct measure_temporal *m, FILE *to)
         "flicker %.2g %% each\n\n"
         "             error                    of     of frames' lost, %%"
         "\n  photons temporal  relMSE, %% flicker, %% "
-        "variance diff.   detail   motion  s a frame filter, %%\n",
+        "variance diff.   detail          motion         s a frame filter, "
+        "%%\n",
         m->frames, m->spp, MEASURE_MORE_PHOTONS, MEASURE_MORE_SAMPLES,
         m->reference_seconds, 50.0 * m->noise.error,
         100.0 * sqrt(0.5) * m->noise.deviation);

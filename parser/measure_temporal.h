@@ -18,11 +18,21 @@ enum { MEASURE_MORE_PHOTONS = 8, MEASURE_MORE_SAMPLES = 8 };
 /* Samples of a pixel, if no other number is asked for. */
 enum { MEASURE_SPP = 16 };
 
-/* One number of photons with one filter. */
+/* Of the energy of the reference's changes, what is lost against no filter
+ * with the same noise. */
+struct measure_loss {
+    double mean;                /* of the repeats                          */
+    double error;               /* its standard error; NAN: of one         */
+    double square;              /* sum of squared differences from the mean */
+};
+
+/* One number of photons with one filter; means over the repeats. */
 struct measure_filter {
     uint64_t photons;
     const char *name;           /* as --temporal has it                    */
+    int repeats;                /* films with noise of their own           */
     struct flicker flicker;
+    struct measure_loss detail, motion;
     double seconds;             /* a frame, mean                           */
     double filter_seconds;
     uint64_t ring;              /* bytes                                   */
@@ -32,6 +42,7 @@ struct measure_temporal {
     int spp;                    /* given; 0: MEASURE_SPP                   */
     uint64_t photons[OPTIONS_MOST_PHOTONS]; /* each is measured; the first
                                    is 0: as the scene says                 */
+    int repeat;                 /* films of the fewest photons; 0: one     */
     const char *csv_path;       /* or NULL                                 */
     /* Found. */
     int frames;

@@ -288,6 +288,8 @@ const struct option option_table[] = {
       .at = AT(reference), .help = "of brume measure: compare with this" },
     { .name = "budget", .value = "s", .set = set_number, .at = AT(budget),
       .low = 0.001, .high = 1e9, .help = "of brume measure: its seconds" },
+    { .name = "repeat", .value = "n", .set = set_integer, .at = AT(repeat),
+      .low = 1, .high = 10000, .help = "of brume measure --temporal: films" },
     { .name = "explain", .value = "[=json]", .set = set_action,
       .at = AT(action), .words = explain_words,
       .help = "print the plan, render nothing" },

@@ -109,6 +109,7 @@ struct options {
     const char *stats;              /* file of --stats, or NULL            */
     const char *reference;          /* of measure, or NULL                 */
     double budget;                  /* ... its seconds, 0: not given       */
+    int repeat;                     /* of measure --temporal, 0: not given */
 
     bool has_verbose, verbose;      /* +V                                  */
     enum options_progress progress;

@@ -53,7 +53,28 @@ prints 'in place'
 less "$(column flicker 1 4000)" "$(column flicker 1 300)"
 less "$(column error adaptive 4000)" "$(column error adaptive 300)"
 
+new_case 'repeated, with noise of its own each time'
+brume measure --temporal still.pov +W12 +H12 --spp 4 +KFF4 --backend cpu \
+    --photons 300,1000 --repeat 4
+exits 0
+is "$(column repeats adaptive 300)" 4
+is "$(column repeats adaptive 1000)" 1
+is "$(column lost_detail 1 300)" 0
+is "$(column lost_detail_error adaptive 1000)" nan
+less 0 "$(column lost_detail_error adaptive 300)"
+less "$(column lost_detail_error adaptive 300)" 1
+prints '+-'
+four=$(column detail 1 300)
+brume measure --temporal still.pov +W12 +H12 --spp 4 +KFF4 --backend cpu \
+    --photons 300,1000
+exits 0
+is "$(column repeats adaptive 300)" 1
+[ "$(column detail 1 300)" != "$four" ] || complain 'the noise was the same'
+
 new_case 'what it cannot do'
+brume still.pov --repeat 3
+exits 2
+says "--repeat is for 'brume measure --temporal'"
 brume still.pov --photons 5,6
 exits 2
 says "several --photons are for 'brume measure --temporal'"
