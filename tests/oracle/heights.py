@@ -5,10 +5,9 @@
 
 Prints for each use the first two of four heights, those of the upper row of a
 picture of 2 x 2: the figures of tests/unit/test_heights.c. Needs povray."""
-import os
 import struct
-import subprocess
-import tempfile
+
+from values import written
 
 FILES = {
     "a.pgm": b"P5\n2 2\n255\n" + bytes([10, 60, 0, 255]),
@@ -31,7 +30,7 @@ NEAR = 1e-6     # to the corner, where the surface still is
 
 def scene():
     yield "#version 3.7; global_settings { assumed_gamma 1 }"
-    yield '#fopen F "heights" write'
+    yield '#fopen F "written" write'
     for use in USES:
         yield f"#declare H = height_field {{ {use} }}"
         for x in (NEAR, 1 - NEAR):
@@ -43,16 +42,7 @@ def scene():
 
 
 def main():
-    with tempfile.TemporaryDirectory() as folder:
-        for name, data in FILES.items():
-            with open(os.path.join(folder, name), "wb") as file:
-                file.write(data)
-        with open(os.path.join(folder, "a.pov"), "w") as file:
-            file.write("\n".join(scene()) + "\n")
-        subprocess.run(["povray", "a.pov", "-D", "-F", "+W4", "+H4", "-GA"],
-                       cwd=folder, check=True, stderr=subprocess.DEVNULL)
-        with open(os.path.join(folder, "heights")) as file:
-            found = file.read().split()
+    found = written("\n".join(scene()) + "\n", files=FILES).split()
     for use, *heights in zip(USES, found[::2], found[1::2]):
         print(use, *heights)
 

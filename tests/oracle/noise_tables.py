@@ -26,6 +26,7 @@ What cells and crackle need are the first numbers of a Mersenne twister (MT
 import os
 import sys
 
+from tables import table
 from values import values
 
 SIZE, ORIGIN = 4096, 10000
@@ -209,18 +210,6 @@ def mersenne_twister(count, seed=5489):
 
 
 # -------------------------------------------------------------------- output
-
-def table(kind, name, numbers):
-    lines, line = [], "   "
-    for number in numbers:
-        if len(line) + len(str(number)) + 2 > 79:
-            lines.append(line)
-            line = "   "
-        line += f" {number},"
-    lines.append(line)
-    return (f"HD_TABLE({kind}, {name}, {len(numbers)}) = {{\n"
-            + "\n".join(lines) + "\n};\n")
-
 
 def header(folder, name, comment, *tables):
     guard = f"CORE_PHYSICS_{name.upper()}_H"

@@ -14,6 +14,7 @@ import os
 import sys
 from math import cos, gcd, radians, sin, sqrt
 
+from tables import table
 from values import values
 
 VARIANTS = {3: (1, 1, 1, 3, 4, 12), 4: (1, 1, 2, 5, 12, 35),
@@ -74,17 +75,6 @@ def shape(first, second):
     shift = next((x * a + y * c) % width for x in range(-9, 10)
                  for y in range(-9, 10) if x * b + y * d == height)
     return width, height, shift
-
-
-def table(kind, name, numbers):
-    lines, line = [], "   "
-    for number in numbers:
-        if len(line) + len(str(number)) + 2 > 79:
-            lines.append(line)
-            line = "   "
-        line += f" {number},"
-    return (f"HD_TABLE({kind}, {name}, {len(numbers)}) = {{\n"
-            + "\n".join(lines + [line]) + "\n};\n")
 
 
 def main(folder):

@@ -6,8 +6,8 @@
 The body of a function in a line, then points with the five numbers (of a
 pattern one) that it gives there. B is a declared pigment. Needs povray."""
 import random
-import subprocess
-import tempfile
+
+from values import written
 
 BASE = "pigment { bozo color_map { [0 rgb 0] [1 rgb 1] } }"
 BODIES = """
@@ -93,7 +93,7 @@ POINTS = 5
 def measure(bodies, points, *switches):
     """Prints bodies and what they give at the points."""
     scene = ["#version 3.7;", "global_settings { assumed_gamma 1 }",
-             '#fopen F "values" write', f"#declare B = {BASE}"]
+             '#fopen F "written" write', f"#declare B = {BASE}"]
     for i, body in enumerate(bodies):
         terms = 5 if body.startswith("pigment") else 1
         scene.append(f"#declare G{i} = function {{ {body} }}")
@@ -103,12 +103,8 @@ def measure(bodies, points, *switches):
                          f"#declare V = <{value}, 0>;")
             scene.append(f'#write(F, vstr({max(terms, 2)}, V, " ", 0, 8), '
                          '"\\n")')
-    with tempfile.TemporaryDirectory() as folder:
-        open(f"{folder}/a.pov", "w").write("\n".join(scene) + "\n#fclose F\n")
-        subprocess.run(["povray", "a.pov", "-D", "-F", "+W4", "+H4", "-GA",
-                        *switches],
-                       cwd=folder, check=True, stderr=subprocess.DEVNULL)
-        values = iter(open(f"{folder}/values").read().splitlines())
+    values = iter(written("\n".join(scene) + "\n#fclose F\n",
+                          *switches).splitlines())
     for body in bodies:
         print(body)
         for point in points:

@@ -6,13 +6,14 @@
 A line `solid KIND NUMBERS...` begins a solid; the numbers are what the builder
 of tests/unit/solids.h takes. Then come `bounds` (two corners), `inside` (a
 point, 0 or 1) and `trace` (origin, direction, then point and normal, or the
-point alone, or `miss`). Rays and points are random, by a generator that is written down here.
+point alone, or `miss`). Rays and points are random, by a generator that is
+written down here.
 """
 import os
 import re
-import subprocess
 import sys
-import tempfile
+
+from values import written
 
 FOLDER = os.path.join(os.path.dirname(__file__), "..", "data", "solids")
 RAYS, POINTS = 40, 60
@@ -295,7 +296,7 @@ KINDS = {
 
 MACROS = """#version 3.7;
 global_settings { assumed_gamma 1 }
-#fopen out "out.txt" write
+#fopen out "written" write
 #macro V(A) concat(" ",str(A.x,0,12)," ",str(A.y,0,12)," ",str(A.z,0,12)) #end
 #macro T(O, D)
   #local N = <0,0,0>;
@@ -332,15 +333,7 @@ def measure(kind):
     scene = MACROS + "\n".join(
         probe(kind, text, numbers, size * scale(kind, numbers), i + 1)
         for i, numbers in enumerate(sets)) + "\n#fclose out\n"
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "scene.pov"), "w") as file:
-            file.write(scene)
-        done = subprocess.run(["povray", "scene.pov", "-D", "-F", "+W1", "+H1"],
-                              cwd=folder, capture_output=True, text=True)
-        if done.returncode:
-            sys.exit(done.stderr[-500:])
-        with open(os.path.join(folder, "out.txt")) as file:
-            said = file.read().split("solid\n")[1:]
+    said = written(scene).split("solid\n")[1:]
     return "".join(" ".join(map(str, ("solid", kind, *numbers))) + "\n" +
                    "".join(trusted(kind, numbers, line + "\n")
                            for line in shorter(text).splitlines())

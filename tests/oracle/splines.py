@@ -6,8 +6,8 @@
 Each line: kind, points, then parameter and x y z of each, then a parameter
 and the x y z of the spline there. Needs povray."""
 import random
-import subprocess
-import tempfile
+
+from values import written
 
 KINDS = ["linear", "quadratic", "cubic", "natural"]
 # The points at these parameters, in this order.
@@ -18,7 +18,7 @@ KNOTS = [[0], [0, 1], [0, 1, 2], [0, 1, 2, 3], [0, .5, 1, 2, 3, 4],
 
 def main():
     random.seed(1)
-    rows, scene = [], ['#version 3.7;', '#fopen F "values" write']
+    rows, scene = [], ['#version 3.7;', '#fopen F "written" write']
     for kind in range(len(KINDS)):
         for knots in KNOTS:
             points = [(t, [random.randint(-9, 9) for _ in "xyz"])
@@ -32,11 +32,7 @@ def main():
                 scene.append(f"#declare V=S({at});#write(F,"
                              'vstr(3, V, " ", 0, 13), "\\n")')
                 rows.append((kind, points, at))
-    with tempfile.TemporaryDirectory() as folder:
-        open(f"{folder}/a.pov", "w").write("\n".join(scene) + "\n#fclose F\n")
-        subprocess.run(["povray", "a.pov", "-D", "-F", "+W4", "+H4", "-GA"],
-                       cwd=folder, check=True, stderr=subprocess.DEVNULL)
-        values = open(f"{folder}/values").read().splitlines()
+    values = written("\n".join(scene) + "\n#fclose F\n").splitlines()
     for (kind, points, at), value in zip(rows, values):
         print(kind, len(points), *(f"{t} {x} {y} {z}"
                                    for t, (x, y, z) in points), at, value)

@@ -18,6 +18,7 @@ import sys
 
 import numpy as np
 
+from tables import table
 from values import values
 
 TYPES = (1, 1, 2, 1, 3, 2, 2, 3, 3, 1, 3, 3, 3, 5, 2, 3, 6, 2, 3, 3, 6, 3, 3,
@@ -191,17 +192,6 @@ def unique(number):
              *quarters(number, c - n @ shift), slope)
             for n, c, slope in edges]))
     return [q for c in matrix.T.flat for q in quarters(number, c)], result
-
-
-def table(kind, name, numbers):
-    lines, line = [], "   "
-    for number in numbers:
-        if len(line) + len(str(number)) + 2 > 79:
-            lines.append(line)
-            line = "   "
-        line += f" {number},"
-    return (f"HD_TABLE({kind}, {name}, {len(numbers)}) = {{\n"
-            + "\n".join(lines + [line]) + "\n};\n")
 
 
 def fixed(v):

@@ -1,26 +1,34 @@
-"""Values of expressions of the scene language, as POV-Ray computes them."""
+"""What scenes write and what expressions come to, by POV-Ray."""
 import os
 import subprocess
+import sys
 import tempfile
+
+
+def written(scene, *switches, files=()):
+    """The text that `scene` writes into the file "written"; it finds `files`,
+    a dictionary of bytes, beside itself."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, data in dict(files, **{"a.pov": scene.encode()}).items():
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(data)
+        done = subprocess.run(
+            ["povray", "a.pov", "-D", "-F", "-V", "+W4", "+H4", *switches],
+            cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(done.stderr[-500:])
+        with open(os.path.join(folder, "written")) as file:
+            return file.read()
 
 
 def values(expressions, declarations=""):
     """Each expression must give a number; they come back as floats."""
-    with tempfile.TemporaryDirectory() as folder:
-        source = os.path.join(folder, "values.pov")
-        output = os.path.join(folder, "values.txt")
-        with open(source, "w") as file:
-            file.write("#version 3.7;\n"
-                       "global_settings { assumed_gamma 1 }\n"
-                       + declarations + f'\n#fopen OUT "{output}" write\n')
-            for text in expressions:
-                file.write(f'#write(OUT, str({text}, 0, 17), "\\n")\n')
-            file.write("#fclose OUT\n")
-        done = subprocess.run(
-            ["povray", "+I" + source, "-D", "-F", "+W1", "+H1", "-V"],
-            capture_output=True, text=True, cwd=folder)
-        with open(output) as file:
-            found = [float(line) for line in file]
-        if len(found) != len(expressions):
-            raise RuntimeError(done.stderr)
-        return found
+    found = written(
+        "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + declarations
+        + '\n#fopen OUT "written" write\n'
+        + "".join(f'#write(OUT, str({text}, 0, 17), "\\n")\n'
+                  for text in expressions)
+        + "#fclose OUT\n").split()
+    if len(found) != len(expressions):
+        sys.exit(f"{len(expressions)} expressions, {len(found)} values")
+    return [float(value) for value in found]

@@ -8,22 +8,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "parser/console.h"
-
-static char folder[] = "/tmp/brume-test-console-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? chdir(folder) : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return chdir("/") || system(command);
-}
+#include "tests/unit/temp_folder.h"
 
 /* ---- a console that writes to the file "said" -------------------------- */
 

@@ -3,24 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "tests/unit/scene_text.h"
-
-static char folder[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    static const char *const names[] = {"a.PGM", "w.pgm", "c.ppm",
-                                        "w.ppm", "p.tga", "broken"};
-    (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        unlink(names[i]);
-    return rmdir(folder);
-}
+#include "tests/unit/temp_folder.h"
 
 static void put(const char *name, const char *bytes, size_t size)
 {
@@ -116,5 +99,5 @@ int main(void)
         cmocka_unit_test(test_heights__palette),
         cmocka_unit_test(test_heights__errors),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 #include "parser/naming.h"
 #include "parser/option.h"
+#include "tests/unit/temp_folder.h"
 
 /* A run's options, read from words; released by `done`. */
 static struct options options;
@@ -354,22 +355,6 @@ static void test_options__help_names_every_option(void **state)
 }
 
 /* ---- INI files --------------------------------------------------------- */
-
-static char folder[] = "/tmp/brume-test-options-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? chdir(folder) : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return chdir("/") || system(command);
-}
 
 static void write_file(const char *path, const char *text)
 {

@@ -10,22 +10,7 @@
 #include <cmocka.h>
 #include "lib/png.h"
 #include "parser/picture.h"
-
-static char folder[] = "/tmp/brume-test-picture-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? chdir(folder) : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return chdir("/") || system(command);
-}
+#include "tests/unit/temp_folder.h"
 
 /* Two pixels by one: half-covered white, and a clear one. */
 static float radiance[6] = {0.5f, 0.5f, 0.5f, 0, 0, 0};

@@ -8,22 +8,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "parser/reel.h"
-
-static char folder[] = "/tmp/brume-test-reel-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? chdir(folder) : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return chdir("/") || system(command);
-}
+#include "tests/unit/temp_folder.h"
 
 /* ---- what happens, as a text ------------------------------------------- */
 

@@ -5,23 +5,8 @@
 #include <unistd.h>
 #include "lib/exr.h"
 #include "parser/parse.h"
+#include "tests/unit/temp_folder.h"
 #include "tests/unit/truth.h"
-
-static char folder[] = "/tmp/brume-test-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    unlink("sky.exr");
-    unlink("gray.exr");
-    return rmdir(folder);
-}
 
 /* The scene of printf's text. */
 static brume_scene *scene(const char *format, ...)
@@ -293,5 +278,5 @@ int main(void)
         cmocka_unit_test(skies__white_furnace),
         cmocka_unit_test(skies__sun),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
