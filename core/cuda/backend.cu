@@ -1,6 +1,5 @@
-/* The CUDA backend: the flat scene and the film lie in one device allocation;
- * a thread takes a pixel and runs its samples in order, so that a picture is
- * the same from run to run. */
+/* The CUDA backend: the flat scene, the film and all lists lie in one device
+ * allocation. */
 #include <cstdio>
 #include <new>
 #include "core/cuda/backend.cuh"
@@ -11,7 +10,10 @@ namespace
 
 /* Samples of one launch: short enough for a stop to be heard within a second
  * or so, long enough that threads find work when their first paths end. */
-const uint32_t samples_per_launch = 8;
+const uint32_t samples_per_launch = most_samples;
+
+/* Paths of a launch, at most, for the memory. */
+const size_t most_paths = 1u << 21;
 
 /* From the leanest to the one that can do all. */
 const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
@@ -63,13 +65,46 @@ bool stays(const cuda_state *s, const void *array, size_t bytes)
            array != s->frame.flat->view.radiance;
 }
 
+/* Rows of the film whose paths are of one launch. */
+int path_rows(const cuda_state *s)
+{
+    const film *f = s->frame.film;
+    size_t row = static_cast<size_t>(f->x1 - f->x0) * samples_per_launch;
+    size_t rows = row > 0 ? most_paths / row : 1;
+    size_t all = static_cast<size_t>(f->y1 - f->y0);
+    return static_cast<int>(rows < 1 ? 1 : rows < all ? rows : all);
+}
+
+/* Of a launch. */
+size_t paths_at_once(const cuda_state *s)
+{
+    const film *f = s->frame.film;
+    return static_cast<size_t>(path_rows(s)) *
+           static_cast<size_t>(f->x1 - f->x0) * samples_per_launch;
+}
+
+/* Bytes of the list of paths that leave the eye's line, if any can. */
+size_t bent_bytes(const cuda_state *s)
+{
+    return s->frame.stages->path ? paths_at_once(s) * s->stage->bent_bytes : 0;
+}
+
+size_t paths_bytes(const cuda_state *s)
+{
+    return s->job.pixels.path
+               ? device_round(paths_at_once(s) * sizeof *s->job.result) +
+                     device_round(bent_bytes(s)) +
+                     device_round(sizeof *s->job.queue)
+               : 0;
+}
+
 size_t frame_bytes(const cuda_state *s)
 {
     const flat_scene *view = &s->frame.flat->view;
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
-                   photons_bytes(s) + tree_scene_bytes(s);
+                   photons_bytes(s) + tree_scene_bytes(s) + paths_bytes(s);
 #define X(type, name)                                                          \
     if (!stays(s, view->name, view->name##_count * sizeof(type)))              \
         bytes += device_round(view->name##_count * sizeof(type));
@@ -116,12 +151,28 @@ bool upload(cuda_state *s, brume_error *err)
            device_clock_add(&s->clock, 0, &s->spent.upload);
 }
 
+void start_paths(cuda_state *s)
+{
+    sample_job *job = &s->job;
+    size_t bent = bent_bytes(s);
+    job->processors = s->processors;
+    if (!job->pixels.path)
+        return;
+    job->result = static_cast<rgb *>(
+        device_take(&s->arena, paths_at_once(s) * sizeof *job->result));
+    job->queue = static_cast<path_queue *>(
+        device_take(&s->arena, sizeof *job->queue));
+    if (bent > 0)
+        job->bent = device_take(&s->arena, bent);
+}
+
 bool start_film(cuda_state *s, brume_error *err)
 {
     size_t bytes = film_pixels(s->frame.film) * sizeof(film_pixel);
     s->job.pixel = static_cast<film_pixel *>(device_take(&s->arena, bytes));
     s->job.count = static_cast<device_counters *>(
         device_take(&s->arena, sizeof(device_counters)));
+    start_paths(s);
     if (s->frame.film->samples > 0)
         return device_check(cudaMemcpy(s->job.pixel, s->frame.film->pixel,
                                        bytes, cudaMemcpyHostToDevice),
@@ -165,11 +216,26 @@ bool open_device(cuda_state *s, brume_error *err)
     return true;
 }
 
+/* Those of the job, so many rows at a time. */
+void launch_paths(const cuda_state *s)
+{
+    sample_job part = s->job;
+    int rows = path_rows(s), wide = part.x1 - part.x0;
+    for (int y = s->job.y0; y < s->job.y1; y += rows) {
+        part.y0 = y;
+        part.y1 = y + rows < s->job.y1 ? y + rows : s->job.y1;
+        part.pixel = s->job.pixel + static_cast<size_t>(y - s->job.y0) *
+                                        static_cast<size_t>(wide);
+        s->stage->paths(&part);
+    }
+}
+
 /* As photons_warm. */
 bool sample_warm(cuda_state *s, brume_error *err)
 {
     sample_job none = s->job;
     none.x1 = none.x0;
+    none.samples = 1;
     s->stage->lines(&none);
     if (s->job.pixels.path)
         s->stage->paths(&none);
@@ -244,7 +310,7 @@ bool sample_some(cuda_state *s, brume_error *err)
     s->stage->lines(&s->job);
     device_clock_mark(&s->clock, 1);
     if (path)
-        s->stage->paths(&s->job);
+        launch_paths(s);
     return device_check(cudaGetLastError(), "launching the path stage", err) &&
            device_clock_stop(&s->clock, 2, "the path stage", err) &&
            device_clock_add(&s->clock, 0, &s->spent.lines) &&

@@ -100,17 +100,6 @@ __device__ __forceinline__ void store(const flat_scene *s,
     __syncwarp();
 }
 
-/* Numbers in a count for those threads of a warp that ask; all are here. */
-__device__ __forceinline__ unsigned take_numbers(unsigned *count, bool asks)
-{
-    unsigned all = __ballot_sync(~0u, asks), first = 0;
-    int lane = threadIdx.x % warp_size;
-    if (lane == 0 && all != 0u)
-        first = atomicAdd(count, __popc(all));
-    return __shfl_sync(~0u, first, 0) +
-           __popc(all & ((1u << lane) - 1u));
-}
-
 /* Gives threads that wait for one the next photons of the list. */
 __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
                                              photon_counters *count)

@@ -12,6 +12,14 @@ struct device_counters {
 #undef X
 };
 
+/* Counts of the list of paths that have left the eye's lines. */
+struct path_queue {
+    unsigned listed, taken;
+};
+
+/* Samples of a job, at most. */
+const unsigned most_samples = 8;
+
 /* Samples [first, first + samples) of the film's pixels. */
 struct sample_job {
     flat_scene scene;       /* its pointers are the device's               */
@@ -19,11 +27,17 @@ struct sample_job {
     int x0, y0, x1, y1;     /* the film's part, half open                  */
     uint32_t first, samples;
     film_pixel *pixel;
+    rgb *result;            /* of paths: a sample's pixels, then the next's */
+    void *bent;             /* list of paths, as the stage knows them; NULL:
+                               none is kept                                */
+    path_queue *queue;
+    int processors;
     device_counters *count;  /* sums                                        */
 };
 
 struct sample_stage {
     int may;                /* MAY_* of the scenes that it can do          */
+    size_t bent_bytes;      /* of a path in the list                       */
     void (*lines)(const sample_job *job);
     void (*paths)(const sample_job *job);
 };

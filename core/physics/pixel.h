@@ -162,6 +162,17 @@ HD uint64_t pixel_index(const pixel_job *job, int32_t x, int32_t y)
     return (uint64_t)y * (uint64_t)job->width + (uint64_t)x;
 }
 
+/* The first of the places along the ray alone. */
+HD float pixel_along(const pixel_job *job, uint64_t index, uint32_t number)
+{
+    rng seed = rng_make(job->seed, job->frame, 0xffffffffu, index);
+    uint32_t x[SOBOL_DIMENSIONS];
+    sobol_point(number, x);
+    rng_u32(&seed);
+    rng_u32(&seed);
+    return sobol_float(sobol_scramble(x[2], rng_u32(&seed)));
+}
+
 /* An eye's ray of pixel (x, y), and where it starts. */
 HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
                   int32_t y, uint32_t number, vec3 *o, vec3 *d,
@@ -276,11 +287,11 @@ HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
     count->paths++;
 }
 
-HD void pixel_end(const path_state *path, uint32_t half, film_pixel *out,
+HD void pixel_end(rgb radiance, uint32_t half, film_pixel *out,
                   track_counters *count)
 {
-    if (pixel_finite(path->radiance))
-        pixel_sum(out->path[half], path->radiance);
+    if (pixel_finite(radiance))
+        pixel_sum(out->path[half], radiance);
     else
         count->rejected++;
 }
@@ -305,7 +316,8 @@ HD void pixel_paths_run(const flat_scene *s, const pixel_job *job, int32_t x,
             pixel_begin(s, job, x, y, i++, &path, &plate, count);
         alive = single_segment(s, &path, &plate, count);
         if (!alive)
-            pixel_end(&path, pixel_half((i - 1u) / job->share), out, count);
+            pixel_end(path.radiance, pixel_half((i - 1u) / job->share), out,
+                      count);
     }
 }
 
