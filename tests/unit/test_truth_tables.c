@@ -33,8 +33,10 @@ struct result {
 };
 
 /* Of the truth: batches whose error is larger have too few events in them to
- * be distributed evenly. */
+ * be distributed evenly, and so have those of rare events that are worth more
+ * each. */
 #define KNOWN_ERROR 0.05
+#define KNOWN_EVENT 0.0025
 
 static struct truth_row *new_row(struct truth_row *rows, int *count)
 {
@@ -327,7 +329,8 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
                         : seconds,
                can_walk, &out);
     if (can_walk && !out.reached) {
-        bool known = !row->walked && out.error < KNOWN_ERROR * row->truth;
+        bool known = !row->walked && out.error < KNOWN_ERROR * row->truth &&
+                     unseen(row, out.spp) < KNOWN_EVENT * row->truth;
         out.picture_z = known ? out.z : 0.0;
         row->walked = true;
         run_so(row, &frame, seconds, false, &out);
@@ -370,17 +373,20 @@ static void report(const struct truth_row *row, const struct result *r,
                    bool table)
 {
     double relative = row->truth == 0.0 ? 0.0 : r->error / row->truth;
+    const char *by = row->walked ? "walk" : "picture";
+    const char *end = r->reached ? "" : ", short";
+    char picture[32] = "-";
+    if (r->picture_z != 0.0)
+        snprintf(picture, sizeof picture, "%+.2f", r->picture_z);
     if (table)
-        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %+.2f | %.1f | %s%s |\n",
-               row->name, row->truth, r->mean, relative, r->z, r->picture_z,
-               r->seconds, row->walked ? "walk" : "picture",
-               r->reached ? "" : ", short");
+        printf("| %s | %.9g | %.9g | %.1e | %+.2f | %s | %.1f | %s%s |\n",
+               row->name, row->truth, r->mean, relative, r->z, picture,
+               r->seconds, by, end);
     else
         printf("%sok %s: %.9g, truth %.9g, SE %.1e of it, z %+.2f, "
-               "of its picture %+.2f, %.1f s, %s%s\n",
+               "of its picture %s, %.1f s, %s%s\n",
                holds(r) ? "" : "not ", row->name, r->mean, row->truth, relative,
-               r->z, r->picture_z, r->seconds, row->walked ? "walk" : "picture",
-               r->reached ? "" : ", short");
+               r->z, picture, r->seconds, by, end);
     fflush(stdout);
 }
 

@@ -178,7 +178,7 @@ static inline void walk_arrive(struct walk *w, struct walker *a, path_state *p,
 }
 
 /* To the next scattering; false if there is none. A flight that goes on behind
- * a boundary has what is left of its depth before it. */
+ * a boundary takes its choice from the same words. */
 static inline bool walk_fly(struct walk *w, struct walker *a, size_t i)
 {
     const flat_scene *s = w->scene;
@@ -194,12 +194,12 @@ static inline bool walk_fly(struct walk *w, struct walker *a, size_t i)
     p.boost = 1.0f;
     bvh_ray ray = bvh_ray_make(o, d);
     ray_hit h = bvh_nearest(s, &ray, &p.after, s->far);
-    double left = walk_depth(w, a, i), choice = walk_choice(w, a, i);
+    double depth = walk_depth(w, a, i);
+    walk_words(&p.random, depth, walk_choice(w, a, i));
     for (;;) {
         media_walk m;
         path_event event;
         walk_begin(s, &m, &p.inside, true, o, d, p.after.t, h.t);
-        walk_words(&p.random, left, choice);
         int what = m.count ? path_track(s, &p, &m, &event) : PATH_THROUGH;
         if (what == PATH_SCATTERED) {
             walk_arrive(w, a, &p, &event);
@@ -207,8 +207,6 @@ static inline bool walk_fly(struct walk *w, struct walker *a, size_t i)
         }
         if (what == PATH_ENDED || h.shape < 0)
             return false;
-        if (m.count)
-            left = fmax(left - (double)(h.t - p.after.t) / w->unit, 0.0);
         shadow_cross(s, &h, &p.inside);
         p.after = h;
         h = bvh_nearest(s, &ray, &p.after, s->far);
