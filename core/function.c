@@ -225,10 +225,10 @@ bool function_wide(struct brume_function *f, enum machine_op op, int takes,
                          err);
 }
 
-bool function_take(struct brume_function *f, int takes, int *at,
+bool function_take(struct brume_function *f, int takes, int needs, int *at,
                    struct brume_error *err)
 {
-    if (!has(f, takes, err) || !settle_top(f, takes, err))
+    if (!has(f, takes, err) || !settle_top(f, needs, err))
         return false;
     f->height -= takes;
     *at = home(f, f->height);

@@ -81,10 +81,11 @@ bool function_wide(struct brume_function *f, enum machine_op op, int takes,
                    int gives, int32_t a, int32_t b, int32_t c,
                    struct brume_error *err);
 
-/* The same of several instructions: *at is where the operands stand and the
- * results shall; beyond the operands there is room for 3 numbers and those of
- * two calls. Then gives, if all was done. */
-bool function_take(struct brume_function *f, int takes, int *at,
+/* The same of several instructions, of which the last `needs` operands alone
+ * are read: *at is where the operands stand and the results shall; beyond the
+ * operands there is room for 3 numbers and those of two calls. Then gives, if
+ * all was done. */
+bool function_take(struct brume_function *f, int takes, int needs, int *at,
                    struct brume_error *err);
 bool function_give(struct brume_function *f, bool done, int gives,
                    struct brume_error *err);

@@ -254,8 +254,8 @@ bool brume_function_map(struct brume_function *function,
                         const struct brume_map *map, struct brume_error *err)
 {
     struct brume_function *f = function;
-    int at;
-    if (!check_map(f, map, err) || !function_take(f, 4, &at, err))
+    int at, needs = map->functions ? 4 : 1;
+    if (!check_map(f, map, err) || !function_take(f, 4, needs, &at, err))
         return false;
     bool done = map->functions ? map_functions(f, map, at, err)
                                : map_values(f, map, at, err);
@@ -275,7 +275,7 @@ bool brume_function_average(struct brume_function *function,
     if (!map->functions || !map->places)
         return function_fail(f, err, BRUME_ERR_SCENE,
                              "an average is of functions with weights");
-    if (!function_take(f, 3, &at, err))
+    if (!function_take(f, 3, 3, &at, err))
         return false;
     bool done = true;
     int sum = at + 3, each = sum + map->terms;

@@ -1,7 +1,7 @@
 /* The CPU backend: rows of pixels over threads. A pixel is summed by one
  * thread in the order of its samples, so that the picture does not depend on
  * how many there are. */
-#include "core/cpu/cpu.h"
+#include "core/cpu/sample.h"
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
@@ -24,6 +24,17 @@ static void cpu_close(void *state)
     free(s);
 }
 
+/* The first that can do all that the scene needs. */
+static const struct cpu_stage *choose_stage(int needs)
+{
+    static const struct cpu_stage *const list[] = {&cpu_plain, &cpu_lit,
+                                                   &cpu_all};
+    const struct cpu_stage *const *at = list;
+    while (needs & ~(*at)->may)
+        at++;
+    return *at;
+}
+
 static void *cpu_open(const struct backend_frame *frame,
                       struct brume_error *err)
 {
@@ -34,6 +45,7 @@ static void *cpu_open(const struct backend_frame *frame,
     s->frame = *frame;
     s->threads = threads > 0 ? threads : thread_processors();
     s->job = backend_pixels(frame);
+    s->stage = choose_stage(frame->stages->needs);
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
     const struct flat *flat = frame->flat;
     if (s->count && frame->stages->photons)
@@ -55,15 +67,10 @@ static bool cpu_renew(void *state, struct brume_error *err)
 static void sample_row(void *context, size_t index, int thread)
 {
     struct cpu_state *s = context;
-    struct film *film = s->frame.film;
+    const struct film *film = s->frame.film;
     int y = film->y0 + (int)index, columns = film->x1 - film->x0;
-    film_pixel *p = film->pixel + index * (size_t)columns;
-    for (int x = film->x0; x < film->x1; x++, p++) {
-        pixel_lines_run(&s->frame.flat->view, &s->job, x, y, film->samples,
-                        s->samples, p, &s->count[thread]);
-        pixel_paths_run(&s->frame.flat->view, &s->job, x, y, film->samples,
-                        s->samples, p, &s->count[thread]);
-    }
+    s->stage->row(s, y, film->pixel + index * (size_t)columns,
+                  &s->count[thread]);
     size_t done = atomic_fetch_add(&s->rows_done, 1) + 1;
     /* Thread 0 is the caller's own. */
     if (thread == 0 &&

@@ -4,9 +4,12 @@
 #include <stdatomic.h>
 #include "core/backend.h"
 
+struct cpu_stage;
+
 struct cpu_state {
     struct backend_frame frame;
     pixel_job job;
+    const struct cpu_stage *stage;
     int threads;
     track_counters *count;      /* of each thread                          */
     int64_t *sum;               /* of the field's cells, or NULL           */

@@ -153,14 +153,25 @@ HD void machine_transform(const real *t, real *r)
              + t[4 * i + 3];
 }
 
+/* As many registers, mostly those of a point or a colour. */
+HD void machine_copy(real *to, const real *from, int count)
+{
+    for (; count >= 3; count -= 3, to += 3, from += 3) {
+        real x = from[0], y = from[1], z = from[2];
+        to[0] = x;
+        to[1] = y;
+        to[2] = z;
+    }
+    for (; count > 0; count--)
+        *to++ = *from++;
+}
+
 HD void machine_return(const machine *m, const machine_instruction *i, real *r)
 {
-    if (i->b == 1) {
+    if (i->b == 1)
         r[0] = machine_value(m, r, i->a);
-        return;
-    }
-    for (int k = 0; k < i->b; k++)
-        r[k] = r[i->a + k];
+    else
+        machine_copy(r, r + i->a, i->b);
 }
 
 HD real3 machine_point(const real *r)
@@ -317,8 +328,7 @@ HD bool machine_run(const machine *m, int32_t function, real *registers)
                         r + i->dst);
             break;
         case MACHINE_COPY:
-            for (int k = 0; k < i->c; k++)
-                r[i->dst + k] = r[i->a + k];
+            machine_copy(r + i->dst, r + i->a, i->c);
             break;
         case MACHINE_GRAY:
             r[i->dst] = REAL(0.297) * r[i->dst] + REAL(0.589) * r[i->dst + 1]

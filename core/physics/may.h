@@ -1,9 +1,8 @@
 /* may.h - what scenes may hold, as far as code is made for it.
  *
- * A kernel for scenes that hold less has no code for the rest, and keeps in
- * registers what would else be arrays in memory: it is the same physics, and
- * gives the same bits. SCENE_MAY is a sum of MAY_*; the CPU's code is made for
- * all. */
+ * Code for scenes that hold less has none for the rest, and keeps in registers
+ * what would else be arrays in memory: it is the same physics, and gives the
+ * same bits. SCENE_MAY is a sum of MAY_*. */
 #ifndef CORE_PHYSICS_MAY_H
 #define CORE_PHYSICS_MAY_H
 #include "core/physics/hd.h"

@@ -120,6 +120,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
     vec3 x = vec3_mad(p->o, t, p->d);
     rgb source = rgb_gray(0.0f);
     out->all_s = out->all_a = out->all_t = source;
+    out->sigma_s[0] = source;
     for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = walk_medium(s, w, i);
         const majorant_cell *bound = &walk_part(w, i)->bound;

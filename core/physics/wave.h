@@ -40,14 +40,18 @@ HD real wave_sine(real v)
     return real_sin(REAL(6.283185307179586) * v);
 }
 
-/* v frequency + phase, wrapped. The divisor keeps 1 where it is; frequency 0
- * leaves all as it is. POV-Ray holds both in single precision. */
+/* v frequency + phase, wrapped. The divisor keeps 1 where it is, and what is
+ * below needs no division; frequency 0 leaves all as it is. POV-Ray holds both
+ * in single precision. */
 HD real wave_wrap(real v, real frequency, real phase)
 {
+    const real period = REAL(1.00001);
     v = wave_finite(v);
-    if (frequency != REAL(0.0))
-        v = real_fmod(v * (real)(float)frequency + (real)(float)phase,
-                      REAL(1.00001));
+    if (frequency != REAL(0.0)) {
+        v = v * (real)(float)frequency + (real)(float)phase;
+        if (!(v >= REAL(0.0) && v < period))
+            v = real_fmod(v, period);
+    }
     return v < REAL(0.0) ? wave_fraction(v) : v;
 }
 
