@@ -65,22 +65,28 @@ bool stays(const cuda_state *s, const void *array, size_t bytes)
            array != s->frame.flat->view.radiance;
 }
 
-/* Rows of the film whose paths are of one launch. */
-int path_rows(const cuda_state *s)
+/* Rows of the film whose paths, so many a pixel, are of one launch; the
+ * launches of all rows are about as large. */
+int path_rows(const film *f, uint32_t samples)
 {
-    const film *f = s->frame.film;
-    size_t row = static_cast<size_t>(f->x1 - f->x0) * samples_per_launch;
-    size_t rows = row > 0 ? most_paths / row : 1;
     size_t all = static_cast<size_t>(f->y1 - f->y0);
-    return static_cast<int>(rows < 1 ? 1 : rows < all ? rows : all);
+    size_t row = static_cast<size_t>(f->x1 - f->x0) * samples;
+    size_t most = row > 0 && row < most_paths ? most_paths / row : 1;
+    size_t parts = (all + most - 1) / most;
+    return static_cast<int>(parts > 0 ? (all + parts - 1) / parts : 1);
 }
 
-/* Of a launch. */
+/* Paths of a launch. */
 size_t paths_at_once(const cuda_state *s)
 {
     const film *f = s->frame.film;
-    return static_cast<size_t>(path_rows(s)) *
-           static_cast<size_t>(f->x1 - f->x0) * samples_per_launch;
+    size_t most = 0;
+    for (uint32_t i = 1; i <= samples_per_launch; i++) {
+        size_t paths = static_cast<size_t>(path_rows(f, i)) *
+                       static_cast<size_t>(f->x1 - f->x0) * i;
+        most = paths > most ? paths : most;
+    }
+    return most;
 }
 
 /* Bytes of the list of paths that leave the eye's line, if any can. */
@@ -220,7 +226,8 @@ bool open_device(cuda_state *s, brume_error *err)
 void launch_paths(const cuda_state *s)
 {
     sample_job part = s->job;
-    int rows = path_rows(s), wide = part.x1 - part.x0;
+    int rows = path_rows(s->frame.film, part.samples);
+    int wide = part.x1 - part.x0;
     for (int y = s->job.y0; y < s->job.y1; y += rows) {
         part.y0 = y;
         part.y1 = y + rows < s->job.y1 ? y + rows : s->job.y1;
