@@ -504,24 +504,54 @@ typedef struct {
     float t;
 } line_flight;
 
+/* Adds the depth of two halves alone, as line_half does. */
+HD void line_dim(const line_job *job, const media_walk *w, float ta, float tb,
+                 float half, line_integral *out)
+{
+    rgb a = rgb_gray(0.0f), b = a;
+    vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
+    for (int i = 0; i < walk_parts(w); i++) {
+        const lattice_walk *part = walk_part(w, i);
+        const flat_medium *m = walk_medium(job->s, w, i);
+        twin_point x;
+        if (line_part_empty(part))
+            continue;
+        x.a = lattice_point(job->s, part, pa, ta);
+        x.b = lattice_point(job->s, part, pb, tb);
+        twin_rgb density = twin_density(job->s, m, &x);
+        a = rgb_add(a, rgb_mul(m->sigma_t, density.a));
+        b = rgb_add(b, rgb_mul(m->sigma_t, density.b));
+    }
+    for (int c = 0; c < 3; c++) {
+        out->tau[c] += (double)rgb_get(a, c) * (double)half;
+        out->tau[c] += (double)rgb_get(b, c) * (double)half;
+    }
+}
+
+/* The first of Gauss's two points in [0, 1]: (1 - 1/sqrt 3) / 2. */
+#define LINE_NODE 0.211324865f
+
 /* From t on over `length`, between planes. */
 HD void line_stretch(line_job *job, const media_walk *w, float t, float stop,
                      line_integral *out)
 {
-    const float node = 0.211324865f;    /* (1 - 1/sqrt 3) / 2 */
-    float length = stop - t;
+    float length = stop - t, off = LINE_NODE * length;
     if (scene_may(MAY_FUNCTIONS) && job->sampled) {
         line_sample(job, w, t, length, out);
         return;
     }
-    line_twins x = line_at_twins(job, w, t + node * length,
-                                 stop - node * length);
+    if (!job->emission && !job->scattered) {
+        line_dim(job, w, t + off, stop - off, 0.5f * length, out);
+        return;
+    }
+    line_twins x = line_at_twins(job, w, t + off, stop - off);
     line_half(out, &x.a, 0.5f * length);
     line_half(out, &x.b, 0.5f * length);
 }
 
-/* False: the line has ended. */
-HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
+/* Finds the next stretch between planes that is not empty, from f->t to *stop.
+ * False: the line has ended. */
+HD bool line_next(const flat_scene *s, line_flight *f, float *stop)
 {
     while (!(f->t < f->walk.t_end) || line_piece_empty(&f->walk)) {
         if (!walk_next(s, &f->walk))
@@ -529,7 +559,16 @@ HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
         f->t = f->walk.t;
     }
     line_advance(&f->job, f->t);
-    float stop = line_stop(&f->job, f->t, f->walk.t_end);
+    *stop = line_stop(&f->job, f->t, f->walk.t_end);
+    return true;
+}
+
+/* False: the line has ended. */
+HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
+{
+    float stop;
+    if (!line_next(s, f, &stop))
+        return false;
     line_stretch(&f->job, &f->walk, f->t, stop, out);
     f->t = stop;
     return true;

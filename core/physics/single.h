@@ -3,8 +3,8 @@
  * Where nothing is followed beyond the first event and lights do not fall off
  * with distance, or a field holds what is, no flights are drawn: the ray goes
  * on to the next surface, and each light is sought at points of the stretch
- * that it can reach, chosen by a coarse profile of how much is scattered there
- * and comes through.
+ * that it can reach, chosen by a profile of how much is scattered there and
+ * comes through.
  *
  * Where the field's cells hold the light straight from lights (`lit`), the
  * straight line gathers that without noise (march.h), and what is sampled here
@@ -12,130 +12,9 @@
  * cells are a control variate, and change nothing but the noise. */
 #ifndef CORE_PHYSICS_SINGLE_H
 #define CORE_PHYSICS_SINGLE_H
-#include "core/physics/path.h"
+#include "core/physics/single_profile.h"
 
-enum { SINGLE_PIECES = 64, SINGLE_EVEN = 48, SINGLE_POINTS = 2 };
-
-/* What a coarse look tells: between distances t of the ray, the sums of what
- * comes to the eye from before each. */
-typedef struct {
-    int32_t count;
-    float t[SINGLE_PIECES + 1], sum[SINGLE_PIECES + 1];
-    int32_t thick;          /* transmittance is worth its exact integral   */
-} single_profile;
-
-/* Full, it goes on with half the pieces. */
-HD void single_add(single_profile *f, float t, float weight)
-{
-    if (f->count == SINGLE_PIECES) {
-        f->count /= 2;
-        for (int i = 1; i <= f->count; i++) {
-            f->t[i] = f->t[2 * i];
-            f->sum[i] = f->sum[2 * i];
-        }
-    }
-    float before = f->sum[f->count];
-    f->count++;
-    f->t[f->count] = t;
-    f->sum[f->count] = before + weight;
-}
-
-/* Scattering that the bounds of the current piece allow, and whether all its
- * media are homogeneous. */
-HD float single_bound(const flat_scene *s, const media_walk *w, bool *even)
-{
-    float sum = 0.0f;
-    *even = true;
-    for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = walk_medium(s, w, i);
-        sum += rgb_max(m->sigma_s) * walk_part(w, i)->bound.density;
-        *even = *even && m->uniform;
-    }
-    return sum;
-}
-
-/* A piece whose middle scatters sigma_s and loses sigma_t, in parts where it
- * is thick and even. Not beyond a depth from which nothing comes. */
-HD void single_piece(single_profile *f, const media_walk *w, float sigma_s,
-                     float sigma_t, bool even, double *tau)
-{
-    float length = w->t_end - w->t, depth = sigma_t * length;
-    int parts = 1;
-    if (even && depth > 0.5f * SINGLE_EVEN) {
-        depth = 0.5f * SINGLE_EVEN;
-        length = depth / sigma_t;
-    }
-    if (even && depth > 0.5f)
-        parts = (int)(2.0f * depth) + 1;
-    for (int i = 1; i <= parts; i++) {
-        float part = length / (float)parts;
-        float seen = fm_exp(-(float)*tau - 0.5f * sigma_t * part);
-        single_add(f, i < parts ? w->t + part * (float)i : w->t + length,
-                   sigma_s * part * seen);
-        *tau += (double)(sigma_t * part);
-    }
-}
-
-/* False where nothing is scattered. Wherever the media may scatter the profile
- * is above 0. */
-HD bool single_look(const flat_scene *s, const path_state *p, float t1,
-                    single_profile *f)
-{
-    const float surely = 0.1f, enough = 30.0f, thick = 1.0f;
-    media_walk w;
-    double tau = 0.0;
-    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
-    p->count->overflow += w.overflow;
-    f->count = 0;
-    f->t[0] = p->after.t;
-    f->sum[0] = 0.0f;
-    if (w.count == 0)
-        return false;
-    do {
-        bool even;
-        float all, bound = single_bound(s, &w, &even);
-        float middle = path_middle(s, p, &w, &all);
-        single_piece(f, &w, middle + surely * (bound - middle), all, even,
-                     &tau);
-    } while (tau < (double)enough && walk_next(s, &w));
-    f->thick = tau > (double)thick && s->procedures_count == 0;
-    return f->sum[f->count] > 0.0f;
-}
-
-/* The sum up to t, which lies within the profile. */
-HD float single_sum(const single_profile *f, float t)
-{
-    int i = 0;
-    while (i < f->count - 1 && t >= f->t[i + 1])
-        i++;
-    float share = (t - f->t[i]) / (f->t[i + 1] - f->t[i]);
-    return f->sum[i] + hd_min(share, 1.0f) * (f->sum[i + 1] - f->sum[i]);
-}
-
-/* Where the sum is `sum`; the profile's height there in *density. */
-HD float single_place(const single_profile *f, float sum, float *density)
-{
-    int i = 0;
-    while (i < f->count - 1 && sum >= f->sum[i + 1])
-        i++;
-    float height = f->sum[i + 1] - f->sum[i];
-    float length = f->t[i + 1] - f->t[i];
-    float share = height > 0.0f ? (sum - f->sum[i]) / height : 0.5f;
-    *density = length > 0.0f ? height / length : 0.0f;
-    return f->t[i] + hd_min(hd_max(share, 0.0f), 1.0f) * length;
-}
-
-/* The profile's height at t. */
-HD float single_height(const single_profile *f, float t)
-{
-    int i = 0;
-    if (!(t >= f->t[0] && t <= f->t[f->count]))
-        return 0.0f;
-    while (i < f->count - 1 && t >= f->t[i + 1])
-        i++;
-    float length = f->t[i + 1] - f->t[i];
-    return length > 0.0f ? (f->sum[i + 1] - f->sum[i]) / length : 0.0f;
-}
+enum { SINGLE_POINTS = 2 };
 
 /* ---- the stretch that a light reaches ---------------------------------- */
 
@@ -217,12 +96,16 @@ HD bool single_lit(const flat_scene *s, const flat_light *l, vec3 o, vec3 d,
 
 /* ---- light ------------------------------------------------------------- */
 
-/* What passes of the eye's ray up to t. Where media are thick, ratio tracking
- * takes as long as the integral, and makes most of the noise: of a cloud, a
- * fourth part of the variance is left in the same time. */
+/* What passes of the eye's ray up to a place. Where the profile does not know
+ * it and media are thick, ratio tracking takes as long as the integral, and
+ * makes most of the noise: of a cloud, a fourth part of the variance is left in
+ * the same time. */
 HD rgb single_passes(const flat_scene *s, path_state *p,
-                     const single_profile *f, float t)
+                     const single_profile *f, const single_spot *at)
 {
+    float t = at->t;
+    if (!f->coarse && f->gray)
+        return rgb_gray(fm_exp(-at->depth));
     if (!f->thick)
         return track_transmittance(s, &p->inside, true, p->o, p->d,
                                    p->after.t, t, &p->random, p->count);
@@ -246,10 +129,12 @@ HD rgb single_comes(const flat_scene *s, path_state *p,
                                          line_jitter_make(0.5f, 0.5f)));
 }
 
-/* Adds what light i gives at distance t, over the density of its choice. */
+/* Adds what light i gives at a place, over the density of its choice. */
 HD void single_point(const flat_scene *s, path_state *p,
-                     const single_profile *f, int i, float t, float density)
+                     const single_profile *f, int i, const single_spot *at,
+                     float density)
 {
+    float t = at->t;
     path_vertex v;
     light_sample l;
     float sigma_s;
@@ -262,7 +147,7 @@ HD void single_point(const flat_scene *s, path_state *p,
     p->count->lookups++;
     if (rgb_is_black(value))
         return;
-    value = rgb_mul(value, single_passes(s, p, f, t));
+    value = rgb_mul(value, single_passes(s, p, f, at));
     if (rgb_is_black(value))
         return;
     value = rgb_mul(value, single_comes(s, p, f, &v, &l));
@@ -275,19 +160,24 @@ HD void single_light(const flat_scene *s, path_state *p,
                      const single_profile *f, int i, float u)
 {
     const flat_light *l = &s->lights[i];
-    float a = f->t[0], b = f->t[f->count], density;
+    float a = f->t[0], b = f->t[f->count];
     if (!l->media_interaction || rgb_is_black(l->color) ||
         !single_lit(s, l, p->o, p->d, &a, &b))
         return;
-    float before = single_sum(f, a), all = single_sum(f, b) - before;
+    float before = 0.0f, all = f->sum[f->count];
+    if (b < f->t[f->count])
+        all = single_at(s, p, f, b).sum;
+    if (a > f->t[0])
+        before = single_at(s, p, f, a).sum;
+    all -= before;
     if (!(all > 0.0f))
         return;
     for (int k = 0; k < SINGLE_POINTS; k++) {
         float share = ((float)k + u) / (float)SINGLE_POINTS;
-        float t = single_place(f, before + share * all, &density);
-        if (density > 0.0f)
-            single_point(s, p, f, i, t,
-                         density * (float)SINGLE_POINTS / all);
+        single_spot at = single_place(s, p, f, before + share * all);
+        if (at.density > 0.0f)
+            single_point(s, p, f, i, &at,
+                         at.density * (float)SINGLE_POINTS / all);
     }
 }
 
@@ -369,9 +259,9 @@ HD float single_lamp_share(const flat_scene *s, int i)
     return lamp ? 0.5f * (s->lights[i].cumulative - before) : 0.0f;
 }
 
-/* Density per length with which single_seek_lamps takes t. */
+/* Density per length with which single_seek_lamps takes a place. */
 HD float single_density(const flat_scene *s, const path_state *p,
-                        const single_profile *f, float t)
+                        const single_profile *f, const single_spot *at)
 {
     float lamps = 0.0f, density = 0.0f;
     for (int i = 0; i < (int)s->lights_count; i++) {
@@ -380,55 +270,56 @@ HD float single_density(const flat_scene *s, const path_state *p,
             continue;
         equiangular e = single_angles(p, f, &s->lights[i]);
         lamps += share;
-        density += share * equiangular_pdf(&e, t);
+        density += share * equiangular_pdf(&e, at->t);
     }
-    return density + (1.0f - lamps) * single_height(f, t) / f->sum[f->count];
+    return density + (1.0f - lamps) * at->density / f->sum[f->count];
 }
 
 /* A place for u in [0, 1) by the profile, or by the angles of a light that
  * falls off: near it cells are worst. */
-HD float single_seek_lamps(const flat_scene *s, const path_state *p,
-                           const single_profile *f, float u)
+HD single_spot single_seek_lamps(const flat_scene *s, const path_state *p,
+                                 const single_profile *f, float u)
 {
-    float height, left = 1.0f;
+    float left = 1.0f;
     for (int i = 0; i < (int)s->lights_count; i++) {
         float share = single_lamp_share(s, i);
         if (u < share) {
             equiangular e = single_angles(p, f, &s->lights[i]);
-            return equiangular_sample(&e, u / share);
+            return single_at(s, p, f, equiangular_sample(&e, u / share));
         }
         u -= share;
         left -= share;
     }
-    return single_place(f, hd_min(u / left, 1.0f) * f->sum[f->count], &height);
+    return single_place(s, p, f, hd_min(u / left, 1.0f) * f->sum[f->count]);
 }
 
 /* Where what the cells are wrong by is sought, and how densely. */
-HD float single_seek(const flat_scene *s, const path_state *p,
-                     const single_profile *f, float u, float *density)
+HD single_spot single_seek(const flat_scene *s, const path_state *p,
+                           const single_profile *f, float u, float *density)
 {
     float all = f->sum[f->count];
     if (scene_may(MAY_LAMPS) && s->local_lights) {
-        float t = single_seek_lamps(s, p, f, u);
-        *density = single_density(s, p, f, t);
-        return t;
+        single_spot at = single_seek_lamps(s, p, f, u);
+        *density = single_density(s, p, f, &at);
+        return at;
     }
-    float t = single_place(f, u * all, density);
-    *density /= all;
-    return t;
+    single_spot at = single_place(s, p, f, u * all);
+    *density = at.density / all;
+    return at;
 }
 
 /* Adds it, at the share `u` of the places where it may be. */
 HD void single_rest(const flat_scene *s, path_state *p,
                     const single_profile *f, float u)
 {
-    float density, t = single_seek(s, p, f, u, &density);
+    float density;
+    single_spot at = single_seek(s, p, f, u, &density);
     if (!(density > 0.0f))
         return;
-    rgb value = rgb_scale(single_error(s, p, t), 1.0f / density);
+    rgb value = rgb_scale(single_error(s, p, at.t), 1.0f / density);
     if (rgb_is_black(value))
         return;
-    value = rgb_mul(value, single_passes(s, p, f, t));
+    value = rgb_mul(value, single_passes(s, p, f, &at));
     p->count->collisions++;
     path_add(p, rgb_mul(p->beta, value));
 }
