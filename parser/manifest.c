@@ -223,7 +223,7 @@ static struct json *make_line(struct manifest *m,
                 json_put_count(line, "photons", e->stats->photons.traced) &&
                 json_put_number(line, "seconds", e->seconds) &&
                 json_put_flag(line, "writes", e->writes) &&
-                (e->origins->incomplete || put_origins(m, line, e->origins));
+                (!e->known || put_origins(m, line, e->origins));
     if (good)
         return line;
     json_free(line);

@@ -17,6 +17,7 @@ struct manifest_entry {
     const char *picture;        /* its file                                */
     uint64_t settings;          /* settings_hash                           */
     const struct parse_origins *origins;
+    bool known;                 /* the origins are all, and as they were   */
     bool writes;                /* the scenes up to it wrote files         */
     const struct brume_stats *stats;
     double seconds;             /* all that it took                        */

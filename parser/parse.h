@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/stat.h>
 #include "core/brume.h"
 #include "parser/diag.h"
 
@@ -65,6 +66,9 @@ struct parse_paths {
  * is left out. Zero to begin with; calls add to it. */
 struct parse_origins {
     struct parse_paths read, missing;
+    struct stat *was;           /* of each that was read, before it was    */
+    size_t was_room, changed;   /* number of a file that was read twice and
+                                   had changed, counted from 1; 0: none    */
     bool incomplete;            /* there were too many to be kept          */
 };
 void parse_origins_release(struct parse_origins *origins);

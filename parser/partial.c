@@ -47,6 +47,12 @@ static uint64_t hash_all(const struct head *head, const void *pixel)
     return hash_bytes(hash, pixel, head->bytes);
 }
 
+/* Whether the part is of what the files hold now. */
+static bool is_known(const struct entry *e)
+{
+    return !e->origins.incomplete && !origins_changed(&e->origins);
+}
+
 /* Of the settings and of what all files hold now. */
 static uint64_t key_of(const struct entry *e)
 {
@@ -127,14 +133,14 @@ static struct entry *find(struct partial_list *list, uint32_t frame)
 static void save(void *user, uint32_t frame, const struct brume_part *part)
 {
     const struct entry *e = find(user, frame);
-    if (e && !e->origins.incomplete)
+    if (e && is_known(e))
         write_part(e, part);
 }
 
 static bool load(void *user, uint32_t frame, struct brume_part *part)
 {
     const struct entry *e = find(user, frame);
-    return e && e->resume && !e->origins.incomplete && read_part(e, part);
+    return e && e->resume && is_known(e) && read_part(e, part);
 }
 
 struct partial_list *partial_new(struct brume_error *err)

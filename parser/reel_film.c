@@ -108,11 +108,29 @@ static uint64_t settings_of(const struct reel *reel, int number)
     return reel->text ? hash_bytes(hash, reel->text, reel->length) : hash;
 }
 
-static bool note_picture(const struct reel *reel,
-                         const struct reel_record *record,
+/* Whether the files are still those that the picture was made of; it would be
+ * taken for one of what they hold now. */
+static bool knows_files(struct reel *reel, const struct reel_record *record,
+                        const struct parse_origins *origins)
+{
+    char text[512];
+    const char *changed = origins_changed(origins);
+    if (changed) {
+        snprintf(text, sizeof text,
+                 "'%s' has changed since '%s' was begun: --resume will render "
+                 "it again",
+                 changed, record->picture);
+        reel_warn(reel, text);
+    }
+    return !changed && !origins->incomplete;
+}
+
+static bool note_picture(struct reel *reel, const struct reel_record *record,
                          const struct parse_origins *origins,
                          struct brume_error *err)
 {
+    if (!reel->manifest)
+        return true;
     struct manifest_entry entry = {
         .number = record->number,
         .clock_on = record->clock_on,
@@ -120,11 +138,12 @@ static bool note_picture(const struct reel *reel,
         .picture = record->picture,
         .settings = settings_of(reel, record->number),
         .origins = origins,
+        .known = knows_files(reel, record, origins),
         .writes = reel->written.count > 0,
         .stats = &record->stats,
         .seconds = all_seconds(record),
     };
-    return !reel->manifest || manifest_add(reel->manifest, &entry, err);
+    return manifest_add(reel->manifest, &entry, err);
 }
 
 static bool keep_record(struct reel *reel, const struct reel_record *record,

@@ -135,6 +135,24 @@ exits 0
 is "$(cat state.txt)" '1,2,3,'
 has writes3.png
 
+new_case 'a scene that changes while it is rendered'
+cp s.pov moves.pov
+"$BRUME" moves.pov +W160 +H120 --spp 64 +KFF9 +Ochanged >printed 2>said &
+pid=$!
+wait_for '"frame":2' changed.frames.jsonl
+sed 's/look_at 0/look_at 0.1*x/' s.pov >new.pov
+cmp -s s.pov new.pov && complain 'nothing changed'
+mv new.pov moves.pov
+wait $pid
+took $?
+exits 0
+says "'moves.pov' has changed since 'changed"
+brume moves.pov +W160 +H120 --spp 64 +KFF9 +Ochanged +C +V
+exits 0
+says 'left out'
+brume moves.pov +W160 +H120 --spp 64 +KFF9 +Onew
+for i in 1 2 3 4 5 6 7 8 9; do same new$i.png changed$i.png; done
+
 new_case 'a still'
 quick s.pov +Ostill --resume
 exits 0
