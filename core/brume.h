@@ -456,6 +456,8 @@ struct brume_part {
     uint64_t count[8];
     void *pixel;                /* sums of the pixels                      */
     size_t bytes;
+    double seconds;             /* in which it must be kept, or it is not;
+                                   0: as long as it takes                  */
 };
 
 /* Keeps such parts: called when the rendering is stopped, and each minute,

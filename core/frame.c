@@ -19,6 +19,9 @@
 /* Samples of a pixel for a field of progressive's own, at most. */
 #define MOST_SHARE 64u
 
+/* From a stop to its end, though a part of a large picture is kept. */
+#define STOP_SECONDS 4.2
+
 /* Entries of a kd-tree's stack, if no other number is asked for. */
 #define DEFAULT_STACK 4
 
@@ -269,6 +272,9 @@ static void save_part(struct frame_job *j)
 {
     const struct brume_keeper *keeper = j->options->keeper;
     struct brume_part part = part_of(j);
+    if (j->stopped)
+        part.seconds = fmax(j->stopped_at + STOP_SECONDS - timer_seconds(),
+                            1e-3);
     if (keeper && !j->torn && part.samples > 0)
         keeper->save(keeper->user, j->options->frame, &part);
     j->saved = timer_seconds();

@@ -2,7 +2,9 @@
 #include "lib/hash.h"
 #include "lib/memory.h"
 #include "lib/output.h"
+#include "lib/timer.h"
 #include "parser/origins.h"
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,8 +73,23 @@ static uint64_t key_of(const struct entry *e)
     return hash;
 }
 
+/* False: it takes longer than it may, or fails. */
+static bool write_pixels(const struct brume_part *part, double until, FILE *to)
+{
+    enum { PIECE = 1 << 24 };
+    const char *at = part->pixel;
+    for (size_t left = part->bytes, size; left > 0; left -= size, at += size) {
+        size = left < PIECE ? left : PIECE;
+        if (timer_seconds() > until || fwrite(at, 1, size, to) != size)
+            return false;
+    }
+    return true;
+}
+
 static bool write_part(const struct entry *e, const struct brume_part *part)
 {
+    double until = part->seconds > 0.0 ? timer_seconds() + part->seconds
+                                       : (double)INFINITY;
     struct brume_error err = {0};
     struct head head = {.key = key_of(e),
                         .bytes = part->bytes,
@@ -88,9 +105,9 @@ static bool write_part(const struct entry *e, const struct brume_part *part)
     if (!out)
         return false;
     output_hurry(out);
-    fwrite(&head, 1, sizeof head, output_stream(out));
-    fwrite(part->pixel, 1, part->bytes, output_stream(out));
-    return output_commit(out, &err);
+    bool good = fwrite(&head, sizeof head, 1, output_stream(out)) == 1 &&
+                write_pixels(part, until, output_stream(out));
+    return output_close(out, good, &err);
 }
 
 static bool read_part(const struct entry *e, struct brume_part *part)
