@@ -228,27 +228,35 @@ static double misfit(const struct fall *f, const struct sums *s,
     return along > 0.0 ? all - along * along / square : all;
 }
 
-/* The fall that fits best, and the mean of all by how likely they are. */
+/* The fall that fits best, and what all say by how likely they are: their mean
+ * less its chance error. Where photons are few the mean alone lets too much of
+ * the detail be lost. */
 struct found {
-    struct fall best, mean;
+    struct fall best, sure;
     double better; /* than none, in squares of chance errors            */
 };
 
-static void find_mean(const struct falls *falls,
+static void find_sure(const struct falls *falls,
                       const double off[TIMES * PARTS], struct found *out)
 {
     double least = INFINITY, sum = 0.0;
-    struct fall mean = {{0}};
+    struct fall mean = {{0}}, square = {{0}};
     for (int i = 0; i < TIMES * PARTS; i++)
         least = fmin(least, off[i]);
     for (int i = 0; i < TIMES * PARTS; i++) {
         double weight = exp(-0.5 * fmin(off[i] - least, 100.0));
         sum += weight;
-        for (int d = 0; d <= REACH; d++)
-            mean.common[d] += weight * falls->fall[i].common[d];
+        for (int d = 0; d <= REACH; d++) {
+            double x = falls->fall[i].common[d];
+            mean.common[d] += weight * x;
+            square.common[d] += weight * x * x;
+        }
     }
-    for (int d = 0; d <= REACH; d++)
-        out->mean.common[d] = mean.common[d] / sum;
+    for (int d = 0; d <= REACH; d++) {
+        double x = mean.common[d] / sum;
+        double variance = fmax(square.common[d] / sum - x * x, 0.0);
+        out->sure.common[d] = fmax(x - sqrt(variance), 0.0);
+    }
 }
 
 /* Of `count` kinds together, with numbers of a brick `free`. */
@@ -270,7 +278,7 @@ static struct found fit(const struct falls *falls, const struct sums *const s[],
             out.better = still - off[i];
         }
     }
-    find_mean(falls, off, &out);
+    find_sure(falls, off, &out);
     return out;
 }
 
@@ -290,7 +298,7 @@ static struct fall fall_of_kind(const struct falls *falls,
     find_errors(fine, spread, FILTER_BLOCKS - 1, error);
     bool apart = misfit(all, fine, error) - misfit(&own.best, fine, error) >
                  CERTAIN;
-    return apart ? own.mean : *all;
+    return apart ? own.sure : *all;
 }
 
 /* That something changes shows in the bricks as wholes first, which noise hides
@@ -307,7 +315,7 @@ static struct fall fall_of_all(const struct falls *falls,
     struct found f = fit(falls, fine, FILTER_KINDS, spread, FILTER_BLOCKS - 1),
                  w = fit(falls, whole, FILTER_KINDS, spread, 1);
     bool changes = f.better > CERTAIN || w.better > CERTAIN;
-    return changes ? f.mean : falls->still;
+    return changes ? f.sure : falls->still;
 }
 
 void filter_fall_fit(const struct filter_common *brick, size_t bricks,

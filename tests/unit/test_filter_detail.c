@@ -137,6 +137,22 @@ static void detail__of_one_frame_is_seen(void **state)
     assert_float_equal(lost[8], 0.1, 0.03);
 }
 
+/* In noise of so much variance that what is found has an error, it is as a rule
+ * not found to change more slowly than it does. */
+static void detail__is_not_trusted_in_more_noise(void **state)
+{
+    enum { TRIALS = 24 };
+    int slow = 0;
+    (void)state;
+    for (int i = 0; i < TRIALS; i++) {
+        float lost[REACH + 1];
+        find(flickering, 0.9f, 2.0f, lost);
+        slow += lost[4] < 0.1f;
+    }
+    print_message("too slow: %d of %d\n", slow, (int)TRIALS);
+    assert_true(slow <= TRIALS / 3);
+}
+
 static void detail__that_stays_is_left_alone(void **state)
 {
     (void)state;
@@ -251,6 +267,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(detail__is_seen_through_noise),
         cmocka_unit_test(detail__of_one_frame_is_seen),
+        cmocka_unit_test(detail__is_not_trusted_in_more_noise),
         cmocka_unit_test(detail__that_stays_is_left_alone),
         cmocka_unit_test(detail__is_kept_with_least_noise),
         cmocka_unit_test(detail__is_kept_where_noise_is_least),
