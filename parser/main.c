@@ -215,6 +215,17 @@ static bool asks_for_help(int count, char **word)
     return false;
 }
 
+/* Whether a filter is one of those of `brume measure --temporal`. */
+static bool is_measured(const struct options *o)
+{
+    struct brume_photon_options known = {0};
+    if (o->adaptive)
+        return o->taps == BRUME_MAX_TAPS;
+    return brume_film_taps(&known, o->taps) &&
+           memcmp(known.weight, o->weight,
+                  (size_t)o->taps * sizeof *o->weight) == 0;
+}
+
 static void check_measure(const struct options *o, struct diag *diag)
 {
     bool temporal = o->action == OPTIONS_MEASURE_TEMPORAL;
@@ -228,6 +239,10 @@ static void check_measure(const struct options *o, struct diag *diag)
     if (!temporal && o->more_photons[0] > 0)
         diag_error(diag, BRUME_ERR_USAGE,
                    "several --photons are for 'brume measure --temporal'");
+    if (temporal && o->taps > 0 && !is_measured(o))
+        diag_error(diag, BRUME_ERR_USAGE,
+                   "'brume measure --temporal' measures 1, 3, 5 and adaptive "
+                   "alone");
     if (!temporal && o->repeat > 0)
         diag_error(diag, BRUME_ERR_USAGE,
                    "--repeat is for 'brume measure --temporal'");

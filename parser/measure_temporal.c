@@ -198,16 +198,18 @@ static enum brume_code measure_filters(struct measure_temporal *m,
     enum brume_code code = BRUME_OK;
     bool moved = false;
     struct flicker none = {0};
+    struct measure_filter *row = m->row + m->rows;
     for (int i = 0; !code && i < MEASURE_FILTERS; i++) {
-        struct measure_filter *row = &m->row[m->rows + i];
         struct take take = {.m = m,
                             .row = row,
                             .which = i,
                             .repeat = repeat,
                             .photons = photons};
-        if (i == IN_PLACE && !moved)
+        if (i == IN_PLACE && (!moved || m->taps > 0))
             break;
-        row->name = filters[i].name;
+        if (i > 0 && m->taps > 0 && m->taps != filters[i].taps)
+            continue;
+        row++->name = filters[i].name;
         code = measure_film(reel, &take, reference, &none);
         moved = take.moved;
         release(&take);

@@ -43,6 +43,8 @@ struct measure_temporal {
     uint64_t photons[OPTIONS_MOST_PHOTONS]; /* each is measured; the first
                                    is 0: as the scene says                 */
     int repeat;                 /* films of the fewest photons; 0: one     */
+    int taps;                   /* of the one filter to be measured beside
+                                   none; 0: all                            */
     const char *csv_path;       /* or NULL                                 */
     /* Found. */
     int frames;

@@ -336,8 +336,10 @@ static enum brume_code measure_temporal(struct reel *reel)
 {
     struct brume_error err = {0};
     const struct options *o = reel->options;
-    struct measure_temporal m = {
-        .spp = o->spp, .repeat = o->repeat, .photons = {o->photons}};
+    struct measure_temporal m = {.spp = o->spp,
+                                 .repeat = o->repeat,
+                                 .taps = o->taps,
+                                 .photons = {o->photons}};
     memcpy(m.photons + 1, o->more_photons, sizeof o->more_photons);
     bool named = !reel->options->to_file ||
                  (m.csv_path = naming_beside(reel->options, ".flicker.csv",

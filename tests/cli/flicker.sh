@@ -71,6 +71,16 @@ exits 0
 is "$(column repeats adaptive 300)" 1
 [ "$(column detail 1 300)" != "$four" ] || complain 'the noise was the same'
 
+new_case 'one filter alone'
+brume measure --temporal still.pov +W12 +H12 --spp 4 +KFF4 --backend cpu \
+    --temporal 5
+exits 0
+is "$(wc -l <still.flicker.csv)" 3
+less "$(column flicker 5)" "$(column flicker 1)"
+brume measure --temporal still.pov +KFF4 --temporal 1,3,1
+exits 2
+says 'measures 1, 3, 5 and adaptive'
+
 new_case 'what it cannot do'
 brume still.pov --repeat 3
 exits 2
