@@ -3,8 +3,8 @@
 
     tests/bench/bench.py [--budget S] [--jobs N] [--threads N] [--scale F]
                          [--samples N] [--gpu PROGRAM] [--gpu-seconds S]
-                         [--references] [--resume] [--data DIR] [--out DIR]
-                         [NAME...]
+                         [--references] [--times] [--resume] [--data DIR]
+                         [--out DIR] [NAME...]
 
 Makes the grids in DIR ($B/bench) where they are not there, and for each scene
 at its published size
@@ -20,7 +20,9 @@ at its published size
 Two seeds against two references tell error, bias and noise apart
 (tests/tools/judge.h). N pictures are made at a time (1), each with so many
 threads (2), on processors of its own if there are several, the scenes in the
-order of the names. --references stops behind these. --resume goes on from what
+order of the names. --references stops behind these. --times makes none, and no
+picture but those of `preset paper` with 1 sample, one after another, and leaves
+times.md alone: minutes, for a machine that others use too. --resume goes on from what
 a call before made with the same program: pictures in DIR, and scenes in
 bench.json. Leaves bench.json, bench.svg, README.md and what `measure` makes
 in the folder of --out (tests/bench/results), with each scene that is done. No
@@ -39,6 +41,7 @@ import re
 import subprocess
 import sys
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -428,7 +431,8 @@ def page(data):
            "they are told from both: what does not fall with samples falls "
            "with photons, and the cheapest of both is taken; `path` from what "
            f"{m['budget'] / 2:g} seconds make. No bias counts as less than the "
-           "mean is off. The paper tells no error of its pictures.")
+           "mean is off. The paper tells no error of its pictures. Seconds of "
+           "`preset paper` alone may be of a later program in times.md.")
     yield ""
     yield from time_table(results)
     yield ""
@@ -500,6 +504,49 @@ def write(options, data):
         f.write("\n".join(page(data)) + "\n")
 
 
+# ---- seconds alone
+
+
+def times_page(options, results):
+    yield "# Seconds of `preset paper`"
+    yield ""
+    m = machine(options)
+    yield ("Made by `tests/bench/bench.py --times`: the published sizes and "
+           "numbers of photons, 1 sample a pixel, whole pictures without "
+           f"reading the scene, by {m['version']} on {m['threads']} threads of "
+           f"{m['processor']} ({m['processors']} processors), the quicker of "
+           "two. Where others use the machine too, half of the processor "
+           "seconds, of the program with all it reads, are what two idle "
+           "processors take, and a little: `busy` is the part of both that the "
+           "program had, `load` what waited for them.")
+    yield ""
+    yield ("| scene | paper, GTX 280 | seconds | busy | load "
+           "| half of the processor seconds |")
+    yield "|---" * 6 + "|"
+    for scene, r in results:
+        busy = r["cpu"] / (r["wall"] * options.threads)
+        yield (f"| {scene.name} | {scene.published} s | {seconds(r['seconds'])} "
+               f"| {100 * busy:.0f} % | {r['load']:.1f} "
+               f"| {seconds(r['cpu'] / 2)} |")
+
+
+def time_one(scene, options, seed):
+    start, load = time.monotonic(), os.getloadavg()[0]
+    r = draw_seed(scene, options, [], "rays", seed,
+                  *kinds_of(scene, options)["rays"])
+    return dict(r, load=load, wall=time.monotonic() - start)
+
+
+def time_all(scenes, options):
+    results = []
+    for scene in scenes:
+        runs = [time_one(scene, options, seed) for seed in (1, 2)]
+        results.append((scene, dict(min(runs, key=lambda r: r["seconds"]),
+                                    cpu=min(r["cpu"] for r in runs))))
+        with open(os.path.join(options.out, "times.md"), "w") as f:
+            f.write("\n".join(times_page(options, results)) + "\n")
+
+
 def kept_of(options):
     """Scenes that a call before measured, of the same program."""
     path = os.path.join(options.out, "bench.json")
@@ -542,6 +589,7 @@ def main():
     parser.add_argument("--gpu")
     parser.add_argument("--gpu-seconds", type=float, default=15)
     parser.add_argument("--references", action="store_true")
+    parser.add_argument("--times", action="store_true")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--data", default=DATA)
     parser.add_argument("--out", default=os.path.join(HERE, "results"))
@@ -549,8 +597,8 @@ def main():
     options = parser.parse_args()
     os.makedirs(options.out, exist_ok=True)
     make_grids(options.data)
-    measure_all([s for s in SCENES if not options.names or
-                 s.name in options.names], options)
+    scenes = [s for s in SCENES if not options.names or s.name in options.names]
+    (time_all if options.times else measure_all)(scenes, options)
 
 
 if __name__ == "__main__":
