@@ -324,6 +324,26 @@ static void truths__slab_under_sky(void **state)
     }
 }
 
+/* Each channel is another slab of the table: a path flies by one of them and
+ * is weighed by all. */
+static void truths__slab_of_three_colors(void **state)
+{
+    (void)state;
+    const double tau[3] = {0.5, 2.0, 8.0}, albedo[3] = {0.5, 0.9, 0.99};
+    const double sum[3] = {0.010438 + 0.757015, 0.097395 + 0.660958,
+                           0.433048 + 0.416336};
+    struct brume_globals g = multiple_under(1.0);
+    brume_scene *s = truth_scene(&g, 1.0, 1e-6);
+    struct brume_medium m = truth_medium(0.0, 0.0, 0.75);
+    for (int c = 0; c < 3; c++) {
+        m.absorption[c] = tau[c] * (1.0 - albedo[c]);
+        m.scattering[c] = tau[c] * albedo[c];
+    }
+    truth_fill(s, truth_box(3000.0, 0.0, 1.0), &m);
+    struct estimate e = truth_render(s, 32, 300);
+    truth_check_colors("T6, colors", &e, sum, 1e-6, 4e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -340,6 +360,7 @@ int main(void)
         cmocka_unit_test(truths__single_scattering),
         cmocka_unit_test(truths__slab_radiance),
         cmocka_unit_test(truths__slab_under_sky),
+        cmocka_unit_test(truths__slab_of_three_colors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
