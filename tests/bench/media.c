@@ -6,14 +6,14 @@
  * from so many independent frames, and the picture's mean; with a folder it
  * leaves the density grid there, as peers.py wants it (raw floats, x runs
  * fastest), and the mean picture. SCENE is cloud, smoke or fog. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "core/brume.h"
+#include "tests/bench/media_density.h"
 
-enum { SIDE = 96, WIDTH = 96 };
+enum { WIDTH = 96 };
 
 static struct brume_error err;
 
@@ -27,67 +27,6 @@ static int checked(int id)
 }
 
 /* ---- densities: the same numbers for both programs ---------------- */
-
-static double hash(int x, int y, int z)
-{
-    uint32_t h = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^
-                 (uint32_t)z * 83492791u;
-    h = (h ^ h >> 15) * 0x2c1b3c6du;
-    h = (h ^ h >> 12) * 0x297a2d39u;
-    return (double)(h ^ h >> 15) / 4294967296.0;
-}
-
-static double value_noise(double x, double y, double z)
-{
-    int i = (int)floor(x), j = (int)floor(y), k = (int)floor(z);
-    double sum = 0.0, u = x - i, v = y - j, w = z - k;
-    u = u * u * (3.0 - 2.0 * u);
-    v = v * v * (3.0 - 2.0 * v);
-    w = w * w * (3.0 - 2.0 * w);
-    for (int c = 0; c < 8; c++)
-        sum += (c & 1 ? u : 1.0 - u) * (c & 2 ? v : 1.0 - v) *
-               (c & 4 ? w : 1.0 - w) *
-               hash(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
-    return sum;
-}
-
-static double fractal(double x, double y, double z)
-{
-    double sum = 0.0, size = 1.0, amount = 0.5;
-    for (int i = 0; i < 5; i++) {
-        sum += amount * value_noise(size * x, size * y, size * z);
-        size *= 2.03;
-        amount *= 0.5;
-    }
-    return sum;
-}
-
-/* At a point of the unit cube, in [0, 1]. A cloud has hard billows, smoke is a
- * wisp around a column. */
-static double density_at(bool cloud, double x, double y, double z)
-{
-    double noise = fractal(5.0 * x, 5.0 * y, 5.0 * z);
-    double dx = x - 0.5, dz = z - 0.5, dy = y - 0.5;
-    if (cloud) {
-        double r = sqrt(dx * dx + 1.6 * dy * dy + dz * dz);
-        double v = 0.42 - r + 0.55 * (noise - 0.5);
-        return fmin(fmax(12.0 * v, 0.0), 1.0) * (0.4 + 0.6 * noise);
-    }
-    double bend = 0.15 * (value_noise(3.0 * y, 7.0, 1.0) - 0.5);
-    double r = hypot(dx - bend, dz + bend) / (0.08 + 0.3 * y);
-    double v = exp(-r * r) * noise * 2.0 - 0.2;
-    return fmin(fmax(v, 0.0), 1.0);
-}
-
-static float *make_density(bool cloud)
-{
-    float *d = malloc(sizeof *d * SIDE * SIDE * SIDE);
-    for (int i = 0; d && i < SIDE * SIDE * SIDE; i++)
-        d[i] = (float)density_at(cloud, (i % SIDE + 0.5) / SIDE,
-                                 (i / SIDE % SIDE + 0.5) / SIDE,
-                                 (i / SIDE / SIDE + 0.5) / SIDE);
-    return d;
-}
 
 /* Voxels over the cube from -1 to 1, centres half a voxel in. */
 static int add_density(brume_scene *s, const float *d)

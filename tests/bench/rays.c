@@ -23,8 +23,8 @@ struct cell {
 
 static struct {
     const float *density;
-    float sigma;             /* per voxel                                   */
-    int side, cells;         /* of a cell in voxels; along each axis        */
+    float sigma;     /* per voxel                                   */
+    int side, cells; /* of a cell in voxels; along each axis        */
     struct cell cell[MOST_CELLS * MOST_CELLS * MOST_CELLS];
     long fetches;
 } grid;
@@ -116,7 +116,8 @@ static int walk(const struct ray *r, struct step steps[MOST_STEPS])
                          next_plane(r->o.z, r->d.z, t + over, side));
         to = fminf(fmaxf(to, t + over), r->end);
         vec3 p = vec3_mad(r->o, 0.5f * (t + to), r->d);
-        int x = hd_floor((p.x + 0.5f) / side), y = hd_floor((p.y + 0.5f) / side);
+        int x = hd_floor((p.x + 0.5f) / side),
+            y = hd_floor((p.y + 0.5f) / side);
         int z = hd_floor((p.z + 0.5f) / side);
         if (x >= 0 && y >= 0 && z >= 0 && x < n && y < n && z < n) {
             const struct cell *c = &grid.cell[(z * n + y) * n + x];
@@ -191,8 +192,8 @@ static double comb(const struct ray *r, const struct step *steps, int count,
     for (int i = 0; i < count; i++) {
         float size = steps[i].to - steps[i].from;
         for (; next < before + size; next += spacing)
-            sum += extinction(vec3_mad(r->o, steps[i].from + next - before,
-                                       r->d));
+            sum += extinction(
+                vec3_mad(r->o, steps[i].from + next - before, r->d));
         before += size;
     }
     return -(double)(sum * spacing);
@@ -237,8 +238,8 @@ static double marching(const struct ray *r, rng *random)
     }
     if (count == 0)
         return 1.0;
-    int points = (int)ceilf(cbrtf((0.015f + bound) * (0.65f + bound) *
-                                  (60.3f + bound)));
+    int points = (int)ceilf(
+        cbrtf((0.015f + bound) * (0.65f + bound) * (60.3f + bound)));
     if (rng_chance(random, 0.1f))
         for (order = 1; order < MOST_ORDER &&
                         rng_chance(random, 2.0f / (float)(order + 1));)
