@@ -250,14 +250,13 @@ two are drawn 16 times as wide. *galaxy*, a flat box that is turned, was 17 %
 apart while Brume drew functions from grids over the world's axes.
 
 A third of POV-Ray's time, or less, is what Brume takes for the error of 3 x 3
-samples, 4.6 to 26 times less but for *media5*: 2.9 times less, and 2.6 to 4.1
-from run to run on a busy machine. The edges of its floor lie a few hundredths
-of a pixel beside the picture's columns, where points on a grid see none of
-them. For the error of one sample a pixel it is 1.6 to 5.4 times as fast: of
-such pictures half the time is what programs of this size take to start and to
-write a file, and scenes of emission or absorption alone, where POV-Ray takes
-5 to 20 samples of a line, are as fast to draw by it. A single sample lies in
-its pixel's middle, as POV-Ray's do.
+samples, 4.3 to 25 times less but for *media5*: 3.2 times, and 3.2 to 3.3 in nine
+more runs. The edges of its floor lie a few hundredths of a pixel beside the
+picture's columns, where points on a grid see none of them. For the error of one
+sample a pixel it is 1.7 to 5.0 times as fast: of such pictures half the time is
+what programs of this size take to start and to write a file, and scenes of
+emission or absorption alone, where POV-Ray takes 5 to 20 samples of a line, are
+as fast to draw by it. A single sample lies in its pixel's middle, as POV-Ray's do.
 
 Of several media with unlike types of scattering in one interior POV-Ray takes
 the mean of the phase functions, however much each scatters: at right angles
