@@ -275,6 +275,50 @@ static void test_unbounded(void **state)
     brume_scene_free(s);
 }
 
+/* 1.5 + sin(k x) in the atmosphere, with a box without a medium to bound it;
+ * what is drawn of it is off by so much. */
+static double baked(double k, struct counted *warned)
+{
+    struct brume_globals globals = BRUME_GLOBALS_INIT;
+    brume_scene *s = truth_scene(&globals, 3, 2);
+    struct brume_function *fn = brume_function_new(s, 3, truth_error());
+    brume_function_parameter(fn, 0, truth_error());
+    brume_function_constant(fn, k, truth_error());
+    brume_function_op(fn, BRUME_OP_MULTIPLY, truth_error());
+    brume_function_op(fn, BRUME_OP_SIN, truth_error());
+    brume_function_constant(fn, 1.5, truth_error());
+    brume_function_op(fn, BRUME_OP_ADD, truth_error());
+    int function = brume_add_function(s, fn, truth_error());
+    struct brume_medium m = truth_medium(1, 0, 0);
+    m.density[0] = add_field(s, function);
+    m.densities = 1;
+    int id = brume_add_medium(s, &m, truth_error());
+    int in = brume_add_interior(s, &id, 1, truth_error());
+    struct brume_shape box = truth_box(1, 0, 2);
+    assert_true(brume_set_atmosphere(s, in, truth_error()));
+    assert_true(brume_add_shape(s, &box, truth_error()) >= 0);
+    struct flat *f = prepare(s, warned);
+    double error = compare(s, f, function);
+    flat_free(f);
+    brume_scene_free(s);
+    return error;
+}
+
+/* Grids of functions are as fine as the stated error of 1 % asks, and say so
+ * where they cannot be. */
+static void test_baked(void **state)
+{
+    (void)state;
+    struct counted warned;
+    for (double k = 1; k < 20; k *= 2) {
+        double error = baked(k, &warned);
+        if (!(error < 0.0125 && warned.errors == 0 && warned.beyond == 1))
+            fail_msg("frequency %g: error %g", k, error);
+    }
+    assert_true(baked(3000, &warned) > 0.02);
+    assert_int_equal(warned.errors, 1);
+}
+
 /* ---- majorants that do not hold ---------------------------------------- */
 
 struct mean {
@@ -536,8 +580,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(linear),  CASE(bounds),     CASE(placed),  CASE(unbounded),
-        CASE(grid),    CASE(grid_float), CASE(refused), CASE(exceeded),
-        CASE(colored), CASE(lines_mean)};
+        CASE(linear),   CASE(bounds),  CASE(placed),     CASE(unbounded),
+        CASE(baked),    CASE(grid),    CASE(grid_float), CASE(refused),
+        CASE(exceeded), CASE(colored), CASE(lines_mean)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
