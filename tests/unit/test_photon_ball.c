@@ -222,11 +222,12 @@ static void compare_cells(brume_scene *s, uint64_t times, double side,
 }
 
 /* In a picture alone cells tell what is scattered once, and paths seek the
- * rest. */
+ * rest. (4 times less before places were chosen voxel by voxel, which took
+ * nearly half of the noise of what has no cells.) */
 static void photon_ball__cells_take_noise_and_nothing_else(void **state)
 {
     (void)state;
-    compare_cells(small_cloud(), 12, 0.25, 4.0);
+    compare_cells(small_cloud(), 12, 0.25, 3.0);
 }
 
 /* Of what surfaces see, too. */
