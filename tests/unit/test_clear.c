@@ -1,10 +1,9 @@
 /* test_clear.c - no boundary goes through a cell that is said to be clear. */
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_flat.h"
 #include "core/physics/bvh.h"
 #include "core/physics/rng.h"
 #include "core/physics/walk.h"
 #include "core/physics/warp.h"
-#include "core/prepare.h"
 
 static int add_field(brume_scene *s)
 {
@@ -50,9 +49,7 @@ static struct flat *make_scene(bool things)
         add_shape(s, BRUME_SHAPE_PLANE, (double[]){0.2, 1, 0.1},
                   (double[]){0, 0, 0}, -0.72);
     }
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *flat = prepare_scene(&job, truth_error());
-    assert_non_null(flat);
+    struct flat *flat = truth_flat(s);
     brume_scene_free(s);
     return flat;
 }

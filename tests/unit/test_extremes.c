@@ -1,9 +1,8 @@
 /* The extremes of METHODS.md, section 12: each case was seen to fail with the
  * remedy that it stands for taken out. What is not of media has its test with
  * its module: phase functions, frames, black bodies, triangles. */
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_flat.h"
 #include "core/physics/path.h"
-#include "core/prepare.h"
 
 static struct brume_globals furnace_of(double sky)
 {
@@ -280,9 +279,7 @@ static void extremes__lost_beyond_a_boundary(void **state)
     brume_scene *s = truth_scene(&globals, 1.0, 1e-9);
     struct brume_medium m = truth_medium(10.0, 0.0, 0.0);
     truth_fill(s, truth_box(1.0, 0.0, 1.0), &m);
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
+    struct flat *f = truth_flat(s);
     const container_set inside = {1, 0, {0}};
     const vec3 out = vec3_make(0, 0, -1), o = vec3_make(0, 0, -1e-6f);
     track_counters count = {0};
@@ -488,10 +485,7 @@ static struct flat *cells_along(int x, int y, int z, double voxel,
         v[k] = 2.0f;
     struct brume_medium m = dense_as(*s, g, 0.1, 0.0);
     truth_fill(*s, truth_box(8.0, -8.0, 8.0 + z), &m);
-    struct prepare job = {.scene = *s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
-    return f;
+    return truth_flat(*s);
 }
 
 /* On an edge of cells, or where rounding makes one of it, walks begin that go

@@ -1,9 +1,9 @@
 /* Gathering by balls: pictures against closed forms and the path tracer's, in
  * media whose density changes within a ball. */
 #include "tests/unit/heap_scene.h"
+#include "tests/unit/truth_flat.h"
 #include "core/physics/ball_cell.h"
 #include "core/physics/glow.h"
-#include "core/prepare.h"
 
 enum { SIDE = 12, PIXELS = SIDE * SIDE };
 
@@ -292,9 +292,7 @@ static void photon_ball__voxels_have_their_share_of_births(void **state)
     static int born[VOXELS];
     static double share[VOXELS];
     brume_scene *s = small_fire();
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *flat = prepare_scene(&job, truth_error());
-    assert_non_null(flat);
+    struct flat *flat = truth_flat(s);
     const flat_scene *v = &flat->view;
     const flat_glow *g = &v->glows[0];
     assert_int_equal(v->glows_count, 1);
@@ -344,9 +342,7 @@ static void photon_ball__voxels_weigh_as_they_glow(void **state)
     enum { SIDE = 64 };
     static double share[SIDE * SIDE * SIDE];
     brume_scene *s = small_fire();
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *flat = prepare_scene(&job, truth_error());
-    assert_non_null(flat);
+    struct flat *flat = truth_flat(s);
     const flat_scene *v = &flat->view;
     const flat_glow *g = &v->glows[0];
     double sum = 0.0, off = 0.0;
@@ -381,9 +377,7 @@ static void photon_ball__finds_what_is_thick(void **state)
     m.density[0] = add_heap(s, 2.0);
     m.densities = 1;
     truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *flat = prepare_scene(&job, truth_error());
-    assert_non_null(flat);
+    struct flat *flat = truth_flat(s);
     flat_scene v = flat->view;
     v.field.radius = 0.4f * (float)flat->unit;
     for (int i = 0; i < BALLS; i++) {
@@ -475,9 +469,7 @@ static void photon_ball__lines_tell_what_glows(void **state)
 {
     (void)state;
     brume_scene *s = small_fire();
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *flat = prepare_scene(&job, truth_error());
-    assert_non_null(flat);
+    struct flat *flat = truth_flat(s);
     const flat_scene *v = &flat->view;
     flat_glow g = v->glows[0];
     double squares = 0.0, most = 0.0;

@@ -1,11 +1,10 @@
 /* Fields whose cells are the larger the thinner the media in them are, beside
  * those with cells of one size. */
 #include "tests/unit/heap_scene.h"
+#include "tests/unit/truth_flat.h"
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
-#include "core/plan.h"
-#include "core/prepare.h"
 #include "core/radiance.h"
 #include "core/physics/lit_cell.h"
 
@@ -45,13 +44,10 @@ static struct brume_options options_of(double depth)
 /* With photons laid into it. */
 static struct flat *fill(brume_scene *s, const struct brume_options *o)
 {
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
+    struct flat *f = truth_layout(s, o);
     struct photons photons;
     photon_counters count;
     memset(&count, 0, sizeof count);
-    assert_non_null(f);
-    assert_true(plan_layout(f, o, truth_error()));
     assert_true(photons_plan(f, o, 0, &photons, truth_error()));
     count.tally.sum = calloc(f->radiance_count, sizeof(int64_t));
     assert_non_null(count.tally.sum);

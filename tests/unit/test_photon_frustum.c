@@ -1,12 +1,11 @@
 /* Cells of the field that the eye can see, and photons that they gather,
  * counted by brute force. */
 #include "tests/unit/heap_scene.h"
+#include "tests/unit/truth_flat.h"
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
 #include "core/physics/far.h"
-#include "core/plan.h"
-#include "core/prepare.h"
 #include "core/radiance.h"
 
 enum { SIDE = 12, PIXELS = SIDE * SIDE };
@@ -44,15 +43,6 @@ static struct brume_options options(enum brume_gather gather, bool far)
     o.photons.spacing = 0.2;
     o.photons.far_plane = far;
     return o;
-}
-
-static struct flat *lay_out(brume_scene *s, const struct brume_options *o)
-{
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
-    assert_true(plan_layout(f, o, truth_error()));
-    return f;
 }
 
 /* The point's place in the picture, 1/2 being its edges, and its depth. */
@@ -135,7 +125,7 @@ static void photon_frustum__cells_are_those_in_view(void **state)
     for (int far = 0; far < 2; far++) {
         brume_scene *s = deep_box();
         struct brume_options o = options(BRUME_GATHER_TALLY, far != 0);
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         /* Told to a part of the stretch. */
         if (far)
             check_bricks(f, 0.97 * far_truth(f, 9.21),
@@ -167,7 +157,7 @@ static void photon_frustum__photons_stored_are_those_gathered(void **state)
     for (int far = 0; far < 2; far++) {
         brume_scene *s = deep_box();
         struct brume_options o = options(BRUME_GATHER_BALL, far != 0);
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         struct photons photons;
         photon_counters c = {0};
         uint64_t stored = 0, events = 0;
@@ -255,7 +245,7 @@ static void photon_frustum__far_is_the_farthest_of_all(void **state)
     o.width = 47;
     o.height = 35;
     float most = 0.0f, least = INFINITY;
-    struct flat *f = lay_out(s, &o);
+    struct flat *f = truth_layout(s, &o);
     for (int i = 0; i < o.width * o.height; i++) {
         float far = far_of_pixel(&f->view, o.width, o.height, i % o.width,
                                  i / o.width, 0.0f);
@@ -265,7 +255,7 @@ static void photon_frustum__far_is_the_farthest_of_all(void **state)
     assert_true(least < 0.8f * most);
     for (o.threads = 1; o.threads <= 3; o.threads++) {
         flat_free(f);
-        f = lay_out(s, &o);
+        f = truth_layout(s, &o);
         if (!(f->view.field.far == most))
             fail_msg("%d threads: %.9g, not %.9g", o.threads,
                      (double)f->view.field.far, (double)most);
@@ -302,7 +292,7 @@ static void photon_frustum__plates_hide_what_is_behind(void **state)
         brume_scene *s = deep_box();
         struct brume_options o = options(BRUME_GATHER_TALLY, true);
         hang_plate(s, (float)depth, alpha[i]);
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         double far = (double)f->view.field.far;
         double truth = i == 0 ? depth * f->unit
                               : far_truth(f, 9.21034 + log(0.1));

@@ -1,12 +1,10 @@
 /* Photons and the field of scattered light that they are laid into: power
  * against closed forms, pictures against the path tracer's, and what a scene
  * that needs none of it pays. */
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_flat.h"
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
-#include "core/plan.h"
-#include "core/prepare.h"
 #include "core/radiance.h"
 
 static struct brume_globals full_transport(void)
@@ -69,11 +67,8 @@ static void trace_as(brume_scene *scene, uint64_t photons, uint64_t seed,
     o.integrator = BRUME_INTEGRATOR_PHOTON;
     o.photons.count = photons;
     o.seed = seed;
-    struct prepare job = {.scene = scene, .threads = 1};
     t->scene = scene;
-    t->flat = prepare_scene(&job, truth_error());
-    assert_non_null(t->flat);
-    assert_true(plan_layout(t->flat, &o, truth_error()));
+    t->flat = truth_layout(scene, &o);
     assert_true(t->flat->radiance_count > 0);
     assert_true(photons_plan(t->flat, &o, 0, &t->photons, truth_error()));
     t->count.tally.sum = calloc(t->flat->radiance_count, sizeof(int64_t));

@@ -1,8 +1,7 @@
 /* T5 of METHODS.md: the fluence around a point source in an infinite medium,
  * by following photons with the tracking that paths use. */
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_flat.h"
 #include "core/physics/path.h"
-#include "core/prepare.h"
 
 /* ---- the truth: Case and Zweifel 1967, by quadrature ------------------- */
 
@@ -119,10 +118,7 @@ static struct flat *infinite_medium(double albedo, brume_scene **scene)
     int id = brume_add_medium(*scene, &m, truth_error());
     int in = brume_add_interior(*scene, &id, 1, truth_error());
     assert_true(brume_set_atmosphere(*scene, in, truth_error()));
-    struct prepare job = {.scene = *scene, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
-    return f;
+    return truth_flat(*scene);
 }
 
 static void check_fluence(double albedo, int photons)

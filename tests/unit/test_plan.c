@@ -1,10 +1,9 @@
 /* What a frame's scene does not need: no stage runs for it, and its arrays are
  * empty; with what it needs, both are there. */
 #include <string.h>
-#include "core/plan.h"
-#include "core/prepare.h"
 #include "core/radiance.h"
 #include "tests/unit/heap_scene.h"
+#include "tests/unit/truth_flat.h"
 
 enum { SIDE = 8 };
 
@@ -51,15 +50,6 @@ static brume_scene *fog(void)
     return s;
 }
 
-static struct flat *lay_out(brume_scene *s, const struct brume_options *o)
-{
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
-    assert_true(plan_layout(f, o, truth_error()));
-    return f;
-}
-
 /* Whether the stage runs; one that does not takes no byte. */
 static bool runs(brume_scene *s, const struct brume_options *o,
                  const char *name)
@@ -85,7 +75,7 @@ static void plan__no_temperature_no_emission_map(void **state)
     for (int fire = 0; fire < 2; fire++) {
         struct brume_options o = options();
         brume_scene *s = heap(fire != 0, 0.5);
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         assert_int_equal(runs(s, &o, "glow"), fire);
         assert_int_equal(f->glows_count > 0, fire);
         assert_int_equal(f->glow_voxels_count > 0, fire);
@@ -100,7 +90,7 @@ static void plan__no_geometry_no_tree(void **state)
     for (int box = 0; box < 2; box++) {
         struct brume_options o = options();
         brume_scene *s = box ? heap(false, 0.5) : fog();
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         assert_int_equal(runs(s, &o, "accel"), box);
         assert_int_equal(f->bvh_count + f->kd_count > 0, box);
         flat_free(f);
@@ -116,9 +106,9 @@ static void plan__all_in_view_no_culling(void **state)
         struct brume_options o = options();
         o.photons.spacing = 0.05;
         brume_scene *s = heap(false, wide ? 2.0 : 0.05);
-        struct flat *f = lay_out(s, &o);
+        struct flat *f = truth_layout(s, &o);
         o.photons.everywhere = true;
-        struct flat *all = lay_out(s, &o);
+        struct flat *all = truth_layout(s, &o);
         assert_int_equal(f->radiance_count == all->radiance_count, wide);
         flat_free(f);
         flat_free(all);

@@ -3,8 +3,8 @@
 #include <string.h>
 #include "core/physics/inside.h"
 #include "core/physics/single.h"
-#include "core/prepare.h"
 #include "tests/unit/heap_scene.h"
+#include "tests/unit/truth_flat.h"
 
 /* A ray in the box around the media, and what the profile says of it. */
 struct ray {
@@ -100,9 +100,7 @@ static void single__places_follow_what_scatters(void **state)
     for (int media = 1; media <= 2; media++) {
         double most = 0.0;
         brume_scene *s = edges(media);
-        struct prepare job = {.scene = s, .threads = 1};
-        struct flat *f = prepare_scene(&job, truth_error());
-        assert_non_null(f);
+        struct flat *f = truth_flat(s);
         for (int n = 0; n < 100; n++)
             check(f, n, &most);
         if (!(most > 0.9 && most < 3.5))

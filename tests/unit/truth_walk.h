@@ -17,12 +17,11 @@
 #ifndef TESTS_UNIT_TRUTH_WALK_H
 #define TESTS_UNIT_TRUTH_WALK_H
 #include <stdlib.h>
-#include "tests/unit/truth.h"
+#include "tests/unit/truth_flat.h"
 #include "tests/unit/truth_importance.h"
 #include "core/physics/inside.h"
 #include "core/physics/march.h"
 #include "core/physics/path.h"
-#include "core/prepare.h"
 
 struct walker {
     double weight;
@@ -434,9 +433,7 @@ static inline void walk_start(struct walk *w, size_t n)
 static inline double truth_walk(brume_scene *s, const struct walk_plan *plan,
                                 size_t n, uint32_t frame)
 {
-    struct prepare job = {.scene = s, .threads = 1};
-    struct flat *f = prepare_scene(&job, truth_error());
-    assert_non_null(f);
+    struct flat *f = truth_flat(s);
     struct walk w = {
         .plan = plan, .scene = &f->view, .unit = f->unit, .frame = frame};
     walk_start(&w, n);
