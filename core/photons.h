@@ -21,8 +21,7 @@ bool photons_glow(const flat_scene *scene);
 bool photons_seek(const flat_scene *scene);
 
 /* Lists the sources of the scene with their shares, for field `pass` of many,
- * or 0: none where nothing emits
- * toward it. */
+ * or 0: none where nothing emits toward it. */
 bool photons_plan(const struct flat *flat, const struct brume_options *options,
                   uint32_t pass, struct photons *out, struct brume_error *err);
 /* One of two halves of its photons: two passes of half as many. */

@@ -19,9 +19,9 @@ struct shot {
     uint32_t number;
     brume_scene *scene; /* until it is prepared                        */
     struct brume_options options;
-    struct brume_still *still; /* of its options as they were given        */
-    bool picture;              /* will be asked for                           */
-    bool open;                 /* the job is                                  */
+    struct brume_still *still; /* of its options as they were given    */
+    bool picture;              /* will be asked for                    */
+    bool open;                 /* the job is                           */
     struct frame_job job;
     struct brume_frame out;
     bool traced; /* the field below is there                    */
