@@ -1,22 +1,34 @@
 #include "lib/thread.h"
 #include <pthread.h>
 #include <sched.h>
-#include <stdlib.h>
 #include <unistd.h>
 
+/* A loop. Threads that have nothing to do join it while it has places. */
 struct loop {
-    atomic_size_t next; /* the index that nobody has taken yet    */
+    atomic_size_t next; /* the index that nobody has taken yet         */
     size_t count;
     parallel_body *body;
     void *context;
     const atomic_bool *cancel;
+    int threads, joined; /* at most, and so far: the next one's number  */
+    int inside;          /* beside the caller                           */
+    struct loop *after;  /* of those that are open                      */
 };
 
-struct worker {
-    pthread_t thread;
-    struct loop *loop;
-    int number;
-};
+/* Threads that were started once stay and wait: to start them anew costs a
+ * loop of a millisecond as much again. */
+static struct {
+    pthread_mutex_t lock;
+    pthread_cond_t opened, left; /* a loop, by a thread                  */
+    struct loop *open;
+    int workers;
+    bool forks; /* what a fork needs is known                            */
+} pool = {PTHREAD_MUTEX_INITIALIZER,
+          PTHREAD_COND_INITIALIZER,
+          PTHREAD_COND_INITIALIZER,
+          NULL,
+          0,
+          false};
 
 int thread_processors(void)
 {
@@ -38,22 +50,105 @@ int thread_processors(void)
     return online > 0 ? (int)online : 1;
 }
 
-static bool cancelled(const struct loop *loop)
+static bool is_over(struct loop *loop)
 {
-    return loop->cancel && atomic_load(loop->cancel);
+    return atomic_load(&loop->next) >= loop->count ||
+           (loop->cancel && atomic_load(loop->cancel));
 }
 
-static void *work(void *argument)
+static void run(struct loop *loop, int number)
 {
-    struct worker *w = argument;
-    struct loop *loop = w->loop;
-    while (!cancelled(loop)) {
+    while (!is_over(loop)) {
         size_t index = atomic_fetch_add(&loop->next, 1);
-        if (index >= loop->count)
-            break;
-        loop->body(loop->context, index, w->number);
+        if (index < loop->count)
+            loop->body(loop->context, index, number);
     }
-    return NULL;
+}
+
+static struct loop *find_open(void)
+{
+    struct loop *loop = pool.open;
+    while (loop && (loop->joined == loop->threads || is_over(loop)))
+        loop = loop->after;
+    return loop;
+}
+
+static void *work(void *nothing)
+{
+    pthread_mutex_lock(&pool.lock);
+    for (;;) {
+        struct loop *loop = find_open();
+        if (!loop) {
+            pthread_cond_wait(&pool.opened, &pool.lock);
+            continue;
+        }
+        int number = loop->joined++;
+        loop->inside++;
+        pthread_mutex_unlock(&pool.lock);
+        run(loop, number);
+        pthread_mutex_lock(&pool.lock);
+        if (--loop->inside == 0)
+            pthread_cond_broadcast(&pool.left);
+    }
+    return nothing;
+}
+
+/* A child process has none of the threads, and starts its own. */
+static void before_fork(void)
+{
+    pthread_mutex_lock(&pool.lock);
+}
+
+static void after_fork(void)
+{
+    pthread_mutex_unlock(&pool.lock);
+}
+
+static void begin_child(void)
+{
+    pthread_mutex_init(&pool.lock, NULL);
+    pthread_cond_init(&pool.opened, NULL);
+    pthread_cond_init(&pool.left, NULL);
+    pool.open = NULL;
+    pool.workers = 0;
+}
+
+/* Starts the threads that are missing, as far as the system lets it. */
+static void start_workers(int count)
+{
+    pthread_attr_t detached;
+    if (pool.workers >= count || pthread_attr_init(&detached) != 0)
+        return;
+    pool.forks = pool.forks ||
+                 pthread_atfork(before_fork, after_fork, begin_child) == 0;
+    pthread_attr_setdetachstate(&detached, PTHREAD_CREATE_DETACHED);
+    pthread_t thread;
+    while (pool.workers < count &&
+           pthread_create(&thread, &detached, work, NULL) == 0)
+        pool.workers++;
+    pthread_attr_destroy(&detached);
+}
+
+static void open_loop(struct loop *loop)
+{
+    pthread_mutex_lock(&pool.lock);
+    start_workers(loop->threads - 1);
+    loop->after = pool.open;
+    pool.open = loop;
+    pthread_cond_broadcast(&pool.opened);
+    pthread_mutex_unlock(&pool.lock);
+}
+
+static void close_loop(struct loop *loop)
+{
+    pthread_mutex_lock(&pool.lock);
+    struct loop **place = &pool.open;
+    while (*place != loop)
+        place = &(*place)->after;
+    *place = loop->after;
+    while (loop->inside > 0)
+        pthread_cond_wait(&pool.left, &pool.lock);
+    pthread_mutex_unlock(&pool.lock);
 }
 
 bool parallel_for(int threads, size_t count, parallel_body *body, void *context,
@@ -62,24 +157,18 @@ bool parallel_for(int threads, size_t count, parallel_body *body, void *context,
     if (threads <= 0)
         threads = thread_processors();
     if ((size_t)threads > count)
-        threads = count > 0 ? (int)count : 1;
-    struct loop loop = {
-        .count = count, .body = body, .context = context, .cancel = cancel};
+        threads = (int)count;
+    struct loop loop = {.count = count,
+                        .body = body,
+                        .context = context,
+                        .cancel = cancel,
+                        .threads = threads,
+                        .joined = 1};
     atomic_init(&loop.next, 0);
-    struct worker caller = {.loop = &loop, .number = 0};
-    struct worker *others = calloc((size_t)threads, sizeof *others);
-    int started = 0;
-    while (others && started < threads - 1) {
-        struct worker *w = &others[started];
-        w->loop = &loop;
-        w->number = started + 1;
-        if (pthread_create(&w->thread, NULL, work, w) != 0)
-            break;
-        started++;
-    }
-    work(&caller);
-    for (int i = 0; i < started; i++)
-        pthread_join(others[i].thread, NULL);
-    free(others);
+    if (threads > 1)
+        open_loop(&loop);
+    run(&loop, 0);
+    if (threads > 1)
+        close_loop(&loop);
     return atomic_load(&loop.next) >= count;
 }
