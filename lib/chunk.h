@@ -7,7 +7,9 @@
 #include <stdint.h>
 #include "lib/error.h"
 
-enum { CHUNK_LEAST = 1 << 14, CHUNK_MOST = 1 << 18 };   /* bytes           */
+/* In bytes. No piece goes over a multiple of CHUNK_SPAN, so that threads can
+ * cut an array side by side. */
+enum { CHUNK_LEAST = 1 << 14, CHUNK_MOST = 1 << 18, CHUNK_SPAN = 1 << 21 };
 
 struct chunk {
     size_t from, size;
@@ -15,7 +17,8 @@ struct chunk {
 };
 
 /* In their order, freed with free(); NULL with err set when out of memory.
- * Parts are the same where they are moved by a multiple of four bytes. */
-struct chunk *chunk_list(const void *array, size_t size, size_t *count,
-                         struct brume_error *err);
+ * Parts are the same where they are moved by a multiple of four bytes. Of so
+ * many threads, as parallel_for. */
+struct chunk *chunk_list(const void *array, size_t size, int threads,
+                         size_t *count, struct brume_error *err);
 #endif

@@ -139,7 +139,7 @@ bool upload(cuda_state *s, brume_error *err)
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
     s->job.scene = *from;
-    resident_begin(s->kept, &s->to);
+    resident_begin(s->kept, &s->to, s->frame.options->threads);
     device_clock_mark(&s->clock, 0);
 #define X(type, name)                                                          \
     if (good) {                                                                \

@@ -29,6 +29,7 @@ struct resident {
 struct resident_set {
     resident *first;
     uploader *to;
+    int threads;
     std::atomic<char *> spare{nullptr}; /* what uploads go through         */
     uint64_t uploaded, built, had;
 };
@@ -161,8 +162,7 @@ bool send_pieces(resident_set *set, const resident *r, const void *host,
 bool fill(resident_set *set, resident *r, const void *host, brume_error *err)
 {
     size_t count;
-    r->piece = chunk_list(host, r->bytes, &r->pieces, err);
-    place *places = r->piece ? list_places(set, &count, err) : nullptr;
+    place *places = list_places(set, &count, err);
     bool good = places && send_pieces(set, r, host, places, count, err);
     free(places);
     return good;
@@ -190,12 +190,43 @@ resident *link(resident_set *set, resident *r)
     return set->first = r;
 }
 
-resident *add(resident_set *set, size_t bytes, uint64_t hash, const void *host,
-              brume_error *err)
+/* An array's pieces, and what they are all together. */
+struct contents {
+    chunk *piece;
+    size_t pieces;
+    uint64_t hash;
+};
+
+bool look(const resident_set *set, const void *host, size_t bytes,
+          contents *out, brume_error *err)
 {
-    resident *r = make(set, bytes, hash, err);
-    if (!r)
+    out->piece = chunk_list(host, bytes, set->threads, &out->pieces, err);
+    out->hash = HASH_START;
+    for (size_t i = 0; out->piece && i < out->pieces; i++)
+        out->hash = hash_bytes(out->hash, &out->piece[i].hash,
+                               sizeof out->piece[i].hash);
+    return out->piece != nullptr;
+}
+
+resident *find(const resident_set *set, size_t bytes, uint64_t hash)
+{
+    resident *r = set->first;
+    while (r && (r->made || r->bytes != bytes || r->hash != hash))
+        r = r->next;
+    return r;
+}
+
+/* Takes the pieces, too. */
+resident *add(resident_set *set, size_t bytes, const contents *c,
+              const void *host, brume_error *err)
+{
+    resident *r = make(set, bytes, c->hash, err);
+    if (!r) {
+        free(c->piece);
         return nullptr;
+    }
+    r->piece = c->piece;
+    r->pieces = c->pieces;
     if (fill(set, r, host, err))
         return link(set, r);
     forget(r);
@@ -222,10 +253,12 @@ bool resident_is_worth(const resident_set *set, size_t bytes)
     return set && bytes >= worth;
 }
 
-void resident_begin(resident_set *set, uploader *to)
+void resident_begin(resident_set *set, uploader *to, int threads)
 {
-    if (set)
+    if (set) {
         set->to = to;
+        set->threads = threads;
+    }
     for (resident *r = set ? set->first : nullptr; r; r = r->next)
         r->age++;
 }
@@ -233,12 +266,14 @@ void resident_begin(resident_set *set, uploader *to)
 const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err)
 {
-    uint64_t hash = hash_bytes(HASH_START, host, bytes);
-    resident *r = set->first;
-    while (r && (r->made || r->bytes != bytes || r->hash != hash))
-        r = r->next;
-    if (!r)
-        r = add(set, bytes, hash, host, err);
+    contents c;
+    if (!look(set, host, bytes, &c, err))
+        return nullptr;
+    resident *r = find(set, bytes, c.hash);
+    if (r)
+        free(c.piece);
+    else
+        r = add(set, bytes, &c, host, err);
     if (!r)
         return nullptr;
     r->age = 0;

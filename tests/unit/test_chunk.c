@@ -19,7 +19,7 @@ static unsigned char *make_array(size_t size, uint64_t seed)
 
 static struct chunk *cut(const void *array, size_t size, size_t *count)
 {
-    struct chunk *list = chunk_list(array, size, count, truth_error());
+    struct chunk *list = chunk_list(array, size, 3, count, truth_error());
     assert_non_null(list);
     return list;
 }
@@ -49,7 +49,10 @@ static void chunk__covers_all_once(void **state)
         for (size_t i = 0; i < count; i++) {
             assert_int_equal(list[i].from, at);
             assert_true(list[i].size > 0 && list[i].size <= CHUNK_MOST);
-            assert_true(i + 1 == count || list[i].size > CHUNK_LEAST);
+            assert_true(i + 1 == count || list[i].size > CHUNK_LEAST ||
+                        (at + list[i].size) % CHUNK_SPAN == 0);
+            assert_true(at / CHUNK_SPAN ==
+                        (at + list[i].size - 1) / CHUNK_SPAN);
             at += list[i].size;
         }
         assert_int_equal(at, sizes[s]);
