@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "lib/memory.h"
+#include "lib/thread.h"
 
 static bool check_part(const struct brume_options *o, struct brume_error *err)
 {
@@ -34,14 +35,19 @@ bool film_init(struct film *film, const struct brume_options *options,
     film->y0 = options->y0;
     film->x1 = whole ? options->width : options->x1;
     film->y1 = whole ? options->height : options->y1;
+    film->threads = options->threads;
     film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
-    return film->pixel != NULL;
+    film->row = memory_new((size_t)(film->y1 - film->y0), sizeof *film->row,
+                           err);
+    return film->pixel && film->row;
 }
 
 void film_release(struct film *film)
 {
     free(film->pixel);
+    free(film->row);
     film->pixel = NULL;
+    film->row = NULL;
 }
 
 size_t film_pixels(const struct film *film)
@@ -89,31 +95,66 @@ static double mean_around(const struct film *f, size_t at, int channel)
     return count ? sum / count : mean(f, &f->pixel[at], channel);
 }
 
+/* What all rows have together, in their order whoever found them. */
+struct survey {
+    const struct film *film;
+    double image;               /* mean of all pixels                      */
+};
+
+static double sum_rows(struct survey *s, parallel_body *body)
+{
+    const struct film *f = s->film;
+    double sum = 0.0;
+    parallel_for(f->threads, (size_t)(f->y1 - f->y0), body, s, NULL);
+    for (int y = 0; y < f->y1 - f->y0; y++)
+        sum += f->row[y];
+    return sum;
+}
+
+static void light_of_row(void *context, size_t y, int thread)
+{
+    (void)thread;
+    const struct film *f = ((const struct survey *)context)->film;
+    size_t width = (size_t)(f->x1 - f->x0);
+    double sum = 0.0;
+    for (size_t i = y * width; i < (y + 1) * width; i++)
+        for (int c = 0; c < 3; c++)
+            sum += mean(f, &f->pixel[i], c);
+    f->row[y] = sum;
+}
+
 /* Over its own mean a pixel in which few samples found much light would be off
  * by little; so would one beside a bright edge, over its neighbours'. The less
  * of the two counts. */
-double film_error(const struct film *film)
+static void error_of_row(void *context, size_t y, int thread)
 {
-    size_t pixels = film_pixels(film);
-    if (film->samples < 4 || film->samples < 2 * film->share)
-        return INFINITY;
-    double image = 0.0, sum = 0.0;
-    for (size_t i = 0; i < pixels; i++)
-        for (int c = 0; c < 3; c++)
-            image += mean(film, &film->pixel[i], c);
-    image /= 3.0 * (double)pixels;
-    double floor = 0.01 * image * image;
-    for (size_t i = 0; i < pixels; i++)
+    (void)thread;
+    const struct survey *s = context;
+    const struct film *f = s->film;
+    size_t width = (size_t)(f->x1 - f->x0);
+    double floor = 0.01 * s->image * s->image, sum = 0.0;
+    for (size_t i = y * width; i < (y + 1) * width; i++)
         for (int c = 0; c < 3; c++) {
-            const film_pixel *p = &film->pixel[i];
-            double d = half_mean(film, p, 0, c) - half_mean(film, p, 1, c);
+            const film_pixel *p = &f->pixel[i];
+            double d = half_mean(f, p, 0, c) - half_mean(f, p, 1, c);
             if (d == 0.0)
                 continue;
-            double m = fmin(fabs(mean(film, p, c)),
-                            fabs(mean_around(film, i, c)));
+            double m = fmin(fabs(mean(f, p, c)), fabs(mean_around(f, i, c)));
             sum += 0.25 * d * d / (m * m + floor);
         }
-    return pixels ? sqrt(sum / (3.0 * (double)pixels)) : 0.0;
+    f->row[y] = sum;
+}
+
+double film_error(const struct film *film)
+{
+    struct survey s = {.film = film};
+    double values = 3.0 * (double)film_pixels(film);
+    if (film->samples < 4 || film->samples < 2 * film->share)
+        return INFINITY;
+    if (!(values > 0.0))
+        return 0.0;
+    s.image = sum_rows(&s, light_of_row) / values;
+    return sqrt(sum_rows(&s, error_of_row) / values);
 }
 
 static void resolve_pixel(const struct film *f, const film_pixel *p,
@@ -131,6 +172,24 @@ static void resolve_pixel(const struct film *f, const film_pixel *p,
     frame->depth[at] = p->depth;
 }
 
+struct resolve {
+    const struct film *film;
+    bool omit_background;
+    struct brume_frame *frame;
+};
+
+static void resolve_row(void *context, size_t y, int thread)
+{
+    (void)thread;
+    const struct resolve *r = context;
+    const struct film *f = r->film;
+    size_t width = (size_t)(f->x1 - f->x0);
+    size_t to = ((size_t)f->y0 + y) * (size_t)f->width + (size_t)f->x0;
+    for (size_t x = 0; x < width; x++)
+        resolve_pixel(f, &f->pixel[y * width + x], r->omit_background, to + x,
+                      r->frame);
+}
+
 bool film_resolve(const struct film *film, bool omit_background,
                   struct brume_frame *frame, struct brume_error *err)
 {
@@ -144,11 +203,9 @@ bool film_resolve(const struct film *film, bool omit_background,
         brume_frame_free(frame);
         return false;
     }
-    const film_pixel *p = film->pixel;
-    for (int y = film->y0; y < film->y1; y++)
-        for (int x = film->x0; x < film->x1; x++)
-            resolve_pixel(film, p++, omit_background,
-                          (size_t)y * (size_t)film->width + (size_t)x, frame);
+    struct resolve r = {film, omit_background, frame};
+    parallel_for(film->threads, (size_t)(film->y1 - film->y0), resolve_row, &r,
+                 NULL);
     return true;
 }
 

@@ -11,6 +11,8 @@ struct film {
     bool lines;                 /* each has run its straight line          */
     uint32_t share;             /* so many of them see the same field      */
     film_pixel *pixel;          /* row by row of the part                  */
+    double *row;                /* a sum over each row                     */
+    int threads;                /* for what is found of all pixels         */
 };
 
 bool film_init(struct film *film, const struct brume_options *options,

@@ -304,12 +304,14 @@ static void load_part(struct frame_job *j)
 /* ---- samples ------------------------------------------------------------ */
 
 /* So many that a stop is heard soon, and a picture that takes long is kept
- * now and then. A GPU stops where it likes, but brings its film each time. */
+ * now and then. A GPU stops where it likes, but brings its film each time, so
+ * that many a picture is one piece. */
 static uint32_t next_piece(const struct frame_job *j)
 {
     bool cpu = j->backend == &backend_cpu;
-    double fits = j->rate > 0.0 ? j->rate * (cpu ? 1.0 : 20.0) : 1.0;
-    double most = fmin(fmin(fits, 8.0 * fmax(j->piece, 1.0)), j->left);
+    double first = cpu ? 1.0 : 16.0;
+    double fits = j->rate > 0.0 ? j->rate * (cpu ? 1.0 : 20.0) : first;
+    double most = fmin(fmin(fits, 8.0 * fmax(j->piece, first)), j->left);
     return most > 1.0 ? (uint32_t)most : 1u;
 }
 
