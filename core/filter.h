@@ -37,8 +37,10 @@ struct filter_scratch {
     struct filter_weights *weights;
     struct filter_side *side;
     struct filter_desk *desk;
+    float *kept;
+    bool *found;
     size_t stats_room[2], places_room, common_room[2], weights_room, side_room,
-        desk_room;
+        desk_room, kept_room, found_room;
 };
 void filter_scratch_release(struct filter_scratch *scratch);
 

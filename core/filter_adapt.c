@@ -58,10 +58,16 @@ struct adapt {
     struct filter_desk *desk;       /* a thread's                    */
 };
 
+/* Sums over blocks. */
+struct tally {
+    double weight[BRUME_MAX_TAPS], square, blocks;
+};
+
 /* Of a brick's blocks, and whether these are taken where they were. */
 struct filter_weights {
     float weight[BRUME_MAX_TAPS][FILTER_BLOCKS];
     bool moved[FILTER_BLOCKS];
+    struct tally tally[2]; /* of those that are not, and that are      */
 };
 
 struct filter_desk {
@@ -466,7 +472,6 @@ static void mix_brick(void *context, size_t index, int thread)
     const radiance_lattice *f = &flat->view.field;
     struct filter_desk *d = &a->desk[thread];
     int32_t slot = flat->radiance_slots[index];
-    struct filter_brick brick;
     int corner[3];
     if (slot < 0)
         return;
@@ -478,11 +483,29 @@ static void mix_brick(void *context, size_t index, int thread)
     keep_detail(a, (size_t)slot, w);
     memset(out, 0, size * sizeof *out);
     for (int j = 0; j < 2; j++)
-        for (int k = 0; k < BRUME_MAX_TAPS; k++)
-            if (choose_blocks(w, j, k, weight) &&
-                filter_load(&a->judge, k, j, (size_t)slot, corner, &d->room,
-                            &brick))
-                mix_frame(brick.cells, f->numbers, weight, out);
+        for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+            const float *cells =
+                choose_blocks(w, j, k, weight)
+                    ? filter_again(&a->judge, k, j, (size_t)slot, corner,
+                                   &d->room)
+                    : NULL;
+            if (cells)
+                mix_frame(cells, f->numbers, weight, out);
+        }
+}
+
+static void tally_brick(struct filter_weights *w)
+{
+    memset(w->tally, 0, sizeof w->tally);
+    for (int i = 0; i < FILTER_BLOCKS; i++) {
+        struct tally *t = &w->tally[w->moved[i]];
+        t->blocks += 1.0;
+        for (int k = 0; k < BRUME_MAX_TAPS; k++) {
+            double x = (double)w->weight[k][i];
+            t->weight[k] += x;
+            t->square += x * x;
+        }
+    }
 }
 
 /* Weights of a brick's blocks. */
@@ -513,6 +536,7 @@ static void weigh_brick(void *context, size_t index, int thread)
         for (int k = 0; k < BRUME_MAX_TAPS; k++)
             w->weight[k][i] = weight[k];
     }
+    tally_brick(w);
 }
 
 /* How fast the detail changes, as it is and moved, of frames that count by
@@ -525,31 +549,21 @@ static void find_falls(struct adapt *a, const double weight[BRUME_MAX_TAPS])
                         &a->fall[j]);
 }
 
-/* Sums over blocks of a kind, as they are or moved. */
-struct tally {
-    double weight[BRUME_MAX_TAPS], square, blocks;
-};
-
-static void add_brick(const struct filter_weights *w, struct tally moved[2])
-{
-    for (int i = 0; i < FILTER_BLOCKS; i++) {
-        struct tally *t = &moved[w->moved[i]];
-        t->blocks += 1.0;
-        for (int k = 0; k < BRUME_MAX_TAPS; k++) {
-            double x = (double)w->weight[k][i];
-            t->weight[k] += x;
-            t->square += x * x;
-        }
-    }
-}
-
+/* Of all blocks of a kind. */
 static void tally_weights(const struct adapt *a,
                           struct tally tally[FILTER_KINDS][2])
 {
     memset(tally, 0, FILTER_KINDS * sizeof *tally);
     for (size_t b = 0; b < a->bricks; b++)
-        add_brick(&a->weights[b],
-                  tally[filter_kind(&a->kinds, &a->judge.common[0][b])]);
+        for (int j = 0; j < 2; j++) {
+            int kind = filter_kind(&a->kinds, &a->judge.common[0][b]);
+            const struct tally *from = &a->weights[b].tally[j];
+            struct tally *to = &tally[kind][j];
+            for (int k = 0; k < BRUME_MAX_TAPS; k++)
+                to->weight[k] += from->weight[k];
+            to->square += from->square;
+            to->blocks += from->blocks;
+        }
 }
 
 /* Frames whose mean weight is less than this part of the mean frame's show

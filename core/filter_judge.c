@@ -46,7 +46,11 @@ static void load(const struct desk *desk, int k, size_t slot,
     const struct filter_judge *judge = desk->judge;
     struct filter_brick brick;
     int numbers = judge->flat->view.field.numbers;
+    bool keeps = desk->moved && judge->kept && k != FILTER_MIDDLE;
+    s->room.kept = keeps ? filter_kept(judge, slot, k) : NULL;
     s->any = filter_load(judge, k, desk->moved, slot, corner, &s->room, &brick);
+    if (keeps)
+        judge->found[filter_kept_at(slot, k)] = s->any;
     if (!s->any)
         return;
     find_blocks(s, brick.there);
@@ -258,6 +262,32 @@ static bool judge_all(struct filter_judge *judge, bool moved, int threads,
     return true;
 }
 
+/* Room for cells where they were, which are worth much to be found once, if
+ * they are not too many. */
+static bool keep_moved(struct filter_judge *judge,
+                       struct filter_scratch *scratch, struct brume_error *err)
+{
+    enum { MOST = 1 << 25 };    /* of floats: 128 MiB                      */
+    const struct flat *flat = judge->flat;
+    size_t bricks = flat->radiance_count /
+                    (FILTER_CELLS * (size_t)flat->view.field.numbers);
+    size_t floats = flat->radiance_count * BRUME_MAX_TAPS;
+    judge->kept = NULL;
+    if (!judge->places || floats > MOST)
+        return true;
+    bool *found = memory_grow(scratch->found, &scratch->found_room,
+                              bricks * BRUME_MAX_TAPS, sizeof *found, err);
+    scratch->found = found ? found : scratch->found;
+    float *kept = memory_grow(scratch->kept, &scratch->kept_room, floats,
+                              sizeof *kept, err);
+    scratch->kept = kept ? kept : scratch->kept;
+    judge->kept = kept;
+    judge->found = found;
+    if (found)
+        memset(found, 0, bricks * BRUME_MAX_TAPS);
+    return found && kept;
+}
+
 bool filter_judge(struct filter_judge *judge, int threads,
                   struct filter_scratch *scratch, struct brume_error *err)
 {
@@ -271,6 +301,7 @@ bool filter_judge(struct filter_judge *judge, int threads,
         judge->frames += judge->has[k];
     }
     return filter_follow(judge, threads, scratch, err) &&
+           keep_moved(judge, scratch, err) &&
            judge_all(judge, false, threads, scratch, err) &&
            (!judge->places || judge_all(judge, true, threads, scratch, err));
 }
@@ -280,6 +311,8 @@ void filter_scratch_release(struct filter_scratch *s)
     free(s->stats[0]);
     free(s->stats[1]);
     free(s->places);
+    free(s->kept);
+    free(s->found);
     free(s->common[0]);
     free(s->common[1]);
     free(s->weights);

@@ -33,6 +33,9 @@ struct filter_judge {
                                        there: where it is, and where it was;
                                        the second NULL: nothing moves       */
     struct filter_common *common[2];    /* of each brick, likewise          */
+    float *kept;                    /* cells where they were, of each brick in
+                                       each frame; NULL: too many to keep   */
+    bool *found;                    /* ... which there are                  */
     bool has[BRUME_MAX_TAPS];       /* the frames that there are            */
     int frames;
 };
@@ -56,7 +59,36 @@ static inline bool filter_load(const struct filter_judge *judge, int k,
     return filter_view_brick(&judge->view[k], corner, places, room, out);
 }
 
-/* Fills the stats, and places, which are of the scratch; false: no memory. */
+static inline size_t filter_kept_at(size_t slot, int k)
+{
+    return slot * BRUME_MAX_TAPS + (size_t)k;
+}
+
+static inline float *filter_kept(const struct filter_judge *judge, size_t slot,
+                                 int k)
+{
+    return judge->kept + filter_kept_at(slot, k) * FILTER_CELLS *
+                             (size_t)judge->flat->view.field.numbers;
+}
+
+/* The same again, after filter_judge; where `there` is not asked for. */
+static inline const float *filter_again(const struct filter_judge *judge,
+                                        int k, bool moved, size_t slot,
+                                        const int corner[3],
+                                        struct filter_room *room)
+{
+    struct filter_brick brick;
+    if (moved && k != FILTER_MIDDLE && judge->kept)
+        return judge->found[filter_kept_at(slot, k)]
+                   ? filter_kept(judge, slot, k)
+                   : NULL;
+    return filter_load(judge, k, moved, slot, corner, room, &brick)
+               ? brick.cells
+               : NULL;
+}
+
+/* Fills the stats, places, and what is kept, which are of the scratch; false:
+ * no memory. */
 bool filter_judge(struct filter_judge *judge, int threads,
                   struct filter_scratch *scratch, struct brume_error *err);
 

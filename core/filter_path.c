@@ -25,12 +25,28 @@ static const float *drift_of(const struct filter_field *f, const int at[3])
                : f->drift + ((size_t)slot * DRIFT_BLOCKS + (size_t)block) * 3;
 }
 
+/* Those of 2^3 blocks; NULL where there is none. */
+static void drifts_of(const struct filter_field *f, const int low[3],
+                      const float *out[8])
+{
+    bool one = (low[0] & 3) < 3 && (low[1] & 3) < 3 && (low[2] & 3) < 3;
+    const float *first = one ? drift_of(f, low) : NULL;
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        const int at[3] = {low[0] + x, low[1] + y, low[2] + z};
+        out[k] = !one    ? drift_of(f, at)
+                 : first ? first + 3 * (16 * z + 4 * y + x)
+                         : NULL;
+    }
+}
+
 /* At p, in cells of the middle frame, where the first cell's middle is 0.
  * False: the field has no block there. */
 static bool drift_at(const struct filter_view *v, const float p[3],
                      float out[3])
 {
-    float fraction[3], weights = 0.0f;
+    float part[3][2], sum[3] = {0}, weights = 0.0f;
+    const float *drift[8];
     int low[3];
     out[0] = out[1] = out[2] = 0.0f;
     if (!v->field->drift)
@@ -41,25 +57,21 @@ static bool drift_at(const struct filter_view *v, const float p[3],
         if (!(fabsf(whole) < 1e6f))
             return false;
         low[i] = (int)whole;
-        fraction[i] = q - whole;
+        part[i][1] = q - whole;
+        part[i][0] = 1.0f - part[i][1];
     }
+    drifts_of(v->field, low, drift);
     for (int k = 0; k < 8; k++) {
-        int at[3];
-        float weight = 1.0f;
-        for (int i = 0; i < 3; i++) {
-            int high = k >> i & 1;
-            at[i] = low[i] + high;
-            weight *= high ? fraction[i] : 1.0f - fraction[i];
-        }
-        const float *d = weight > 0.0f ? drift_of(v->field, at) : NULL;
+        const float *d = drift[k];
+        float weight = part[0][k & 1] * part[1][k >> 1 & 1] * part[2][k >> 2];
         if (!d)
             continue;
         weights += weight;
         for (int i = 0; i < 3; i++)
-            out[i] += weight * d[i];
+            sum[i] += weight * d[i];
     }
     for (int i = 0; i < 3; i++)
-        out[i] /= weights > 0.0f ? weights : 1.0f;
+        out[i] = sum[i] / (weights > 0.0f ? weights : 1.0f);
     return weights > 0.0f;
 }
 

@@ -240,6 +240,18 @@ struct around {
     int count; /* of those that are there */
 };
 
+/* Of those that lie in one brick. */
+static void load_within(const struct filter_field *f, const int low[3],
+                        struct around *a)
+{
+    const float *first = cell_at(f, low[0], low[1], low[2]);
+    for (int k = 0; k < 27; k++) {
+        int cell = 64 * (k / 9) + 8 * (k / 3 % 3) + k % 3;
+        a->cell[k] = first ? first + cell * f->lattice.numbers : NULL;
+    }
+    a->count = first ? 27 : 0;
+}
+
 static void load_around(const struct filter_view *v, const float place[3],
                         struct around *a)
 {
@@ -248,6 +260,10 @@ static void load_around(const struct filter_view *v, const float place[3],
         float whole = floorf(place[i]);
         low[i] = (int)whole;
         a->fraction[i] = place[i] - whole;
+    }
+    if ((low[0] & 7) < 6 && (low[1] & 7) < 6 && (low[2] & 7) < 6) {
+        load_within(v->field, low, a);
+        return;
     }
     a->count = 0;
     for (int z = 0, k = 0; z < 3; z++)
@@ -290,20 +306,44 @@ static int place_in(int cell)
     return (cell & 1) + 3 * (cell >> 1 & 1) + 9 * (cell >> 2);
 }
 
-/* A block whose surroundings are all there. */
+/* Three cells along x; of two bricks they are copied side by side. */
+static inline const float *row_of(const float *const cell[3], int numbers,
+                                  float copy[3 * MOST])
+{
+    if (cell[1] == cell[0] + numbers && cell[2] == cell[1] + numbers)
+        return cell[0];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < numbers; i++)
+            copy[k * numbers + i] = cell[k][i];
+    return copy;
+}
+
+static inline void between(const float *restrict a, const float *restrict b,
+                           int count, float t, float *restrict to)
+{
+    for (int i = 0; i < count; i++)
+        to[i] = a[i] + t * (b[i] - a[i]);
+}
+
+/* A block whose surroundings are all there: two cells of each row at a time. */
 static inline void put_whole(const struct around *a, int numbers, int block,
                              struct filter_room *room)
 {
-    float p[27 * MOST], q[27 * MOST];
-    for (int k = 0; k < 27; k++)
-        for (int i = 0; i < numbers; i++)
-            p[k * numbers + i] = a->cell[k][i];
-    const float *x = blend_cells(p, q, numbers, a->fraction);
-    for (int k = 0; k < 8; k++) {
-        int cell = cell_of_block(block, k);
-        for (int i = 0; i < numbers; i++)
-            room->cells[cell * numbers + i] = x[place_in(k) * numbers + i];
-        room->there[cell] = 1.0f;
+    float x[9][2 * MOST], y[6][2 * MOST], copy[3 * MOST];
+    int two = 2 * numbers;
+    for (int i = 0; i < 9; i++) {
+        const float *row = row_of(a->cell + 3 * i, numbers, copy);
+        between(row, row + numbers, two, a->fraction[0], x[i]);
+    }
+    for (int i = 0; i < 6; i++) {
+        int row = 3 * (i >> 1) + (i & 1);
+        between(x[row], x[row + 1], two, a->fraction[1], y[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        int cell = cell_of_block(block, 2 * i);
+        between(y[i], y[i + 2], two, a->fraction[2],
+                room->cells + cell * numbers);
+        room->there[cell] = room->there[cell + 1] = 1.0f;
     }
 }
 
@@ -394,6 +434,7 @@ bool filter_view_brick(const struct filter_view *v, const int corner[3],
 {
     if (!v->field)
         return false;
+    room->cells = room->kept ? room->kept : room->own;
     out->there = NULL;
     if (places) {
         out->cells = room->cells;

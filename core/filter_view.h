@@ -22,7 +22,9 @@ struct filter_brick {
 
 /* Where a brick's cells are put that lie in no field as they are wanted. */
 struct filter_room {
-    float cells[FILTER_CELLS * FILTER_MAX_NUMBERS], there[FILTER_CELLS];
+    float own[FILTER_CELLS * FILTER_MAX_NUMBERS], there[FILTER_CELLS];
+    float *kept;                /* ... in place of `own`, if not NULL       */
+    float *cells;               /* the one of both that was filled          */
 };
 
 /* A field of other numbers than the flat scene's has nothing to see. */
