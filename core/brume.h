@@ -466,8 +466,8 @@ struct brume_keeper {
     void *user;
     void (*save)(void *user, uint32_t frame, const struct brume_part *part);
     /* Asked for the part of a picture that is begun: fills in all but the
-     * backend, which has to be the same, and `bytes` at `pixel`. False: there
-     * is none, and `pixel` may be filled with anything. */
+     * backend, which has to be the same, and `bytes` at `pixel`, which are 0.
+     * False: there is none, and they are left so. */
     bool (*load)(void *user, uint32_t frame, struct brume_part *part);
 };
 

@@ -1,4 +1,5 @@
 #include "core/film.h"
+#include "core/still.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,40 @@ static bool check_part(const struct brume_options *o, struct brume_error *err)
     return true;
 }
 
+static void clear_row(void *context, size_t y, int thread)
+{
+    (void)thread;
+    const struct film *f = context;
+    size_t width = (size_t)(f->x1 - f->x0);
+    memset(f->pixel + y * width, 0, width * sizeof *f->pixel);
+}
+
+/* Memory that a frame before had: to come by as much anew takes longer than to
+ * clear it. */
+static bool take_kept(struct film *f)
+{
+    struct brume_still *still = f->still;
+    if (!still || !still->pixels ||
+        still->pixels_bytes != film_pixels(f) * sizeof *f->pixel)
+        return false;
+    f->pixel = still->pixels;
+    still->pixels = NULL;
+    parallel_for(f->threads, (size_t)(f->y1 - f->y0), clear_row, f, NULL);
+    return true;
+}
+
+static void give_back(struct film *f)
+{
+    struct brume_still *still = f->still;
+    if (!still || !f->pixel) {
+        free(f->pixel);
+        return;
+    }
+    free(still->pixels);
+    still->pixels = f->pixel;
+    still->pixels_bytes = film_pixels(f) * sizeof *f->pixel;
+}
+
 bool film_init(struct film *film, const struct brume_options *options,
                struct brume_error *err)
 {
@@ -36,7 +71,9 @@ bool film_init(struct film *film, const struct brume_options *options,
     film->x1 = whole ? options->width : options->x1;
     film->y1 = whole ? options->height : options->y1;
     film->threads = options->threads;
-    film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
+    film->still = options->still;
+    if (!take_kept(film))
+        film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
     film->row = memory_new((size_t)(film->y1 - film->y0), sizeof *film->row,
                            err);
     return film->pixel && film->row;
@@ -44,7 +81,7 @@ bool film_init(struct film *film, const struct brume_options *options,
 
 void film_release(struct film *film)
 {
-    free(film->pixel);
+    give_back(film);
     free(film->row);
     film->pixel = NULL;
     film->row = NULL;

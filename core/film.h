@@ -12,7 +12,8 @@ struct film {
     uint32_t share;             /* so many of them see the same field      */
     film_pixel *pixel;          /* row by row of the part                  */
     double *row;                /* a sum over each row                     */
-    int threads;                /* for what is found of all pixels         */
+    int threads;                /* for what is done to all pixels          */
+    struct brume_still *still;  /* keeps their memory, or NULL             */
 };
 
 bool film_init(struct film *film, const struct brume_options *options,

@@ -287,10 +287,8 @@ static void load_part(struct frame_job *j)
     struct brume_part part = part_of(j);
     if (!keeper || !j->rendering || part.bytes == 0)
         return;
-    if (!keeper->load(keeper->user, j->options->frame, &part)) {
-        memset(part.pixel, 0, part.bytes);
+    if (!keeper->load(keeper->user, j->options->frame, &part))
         return;
-    }
     j->film.samples = part.samples;
     j->left = part.left;
     j->met = part.met;

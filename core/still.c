@@ -41,6 +41,7 @@ BRUME_API void brume_still_free(struct brume_still *still)
         still->release(still->device);
     free(still->before);
     free(still->item);
+    free(still->pixels);
     free(still);
 }
 

@@ -25,6 +25,8 @@ struct brume_still {
     int bvh_builds, depth;
     struct mesh_tree *tree; /* of large meshes                             */
     int tree_builds, tree_uses;
+    void *pixels;           /* a film's memory, while no film has it       */
+    size_t pixels_bytes;
     void *device;           /* a backend's own                             */
     void (*release)(void *device);
 };

@@ -124,6 +124,8 @@ static bool read_part(const struct entry *e, struct brume_part *part)
                 head.key == key_of(e);
     if (file)
         fclose(file);
+    if (!good && file)
+        memset(part->pixel, 0, part->bytes);
     if (!good)
         return false;
     part->samples = head.samples;
