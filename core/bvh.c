@@ -1,16 +1,14 @@
 #include "core/bvh.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include "core/physics/lbvh.h"
+#include "lib/memory.h"
 
-enum { BINS = 16, LEAF = 4 };
-
-struct box {
-    float lo[3], hi[3];
-};
+enum { BINS = 16 };
 
 struct bin {
-    struct box box;
+    bvh_box box;
     size_t count;
 };
 
@@ -24,6 +22,7 @@ struct task {
 struct shape {
     uint64_t from; /* names of items that are trees               */
     int median;    /* from this depth on nodes are halved         */
+    int room;      /* places of a search                          */
 };
 
 struct split {
@@ -31,7 +30,7 @@ struct split {
     float cost;
 };
 
-static void box_clear(struct box *b)
+static void box_clear(bvh_box *b)
 {
     for (int i = 0; i < 3; i++) {
         b->lo[i] = INFINITY;
@@ -39,7 +38,7 @@ static void box_clear(struct box *b)
     }
 }
 
-static void box_add(struct box *b, const float lo[3], const float hi[3])
+static void box_add(bvh_box *b, const float lo[3], const float hi[3])
 {
     for (int i = 0; i < 3; i++) {
         b->lo[i] = fminf(b->lo[i], lo[i]);
@@ -47,7 +46,7 @@ static void box_add(struct box *b, const float lo[3], const float hi[3])
     }
 }
 
-static float box_area(const struct box *b)
+static float box_area(const bvh_box *b)
 {
     float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1];
     float z = b->hi[2] - b->lo[2];
@@ -66,7 +65,7 @@ static int bin_of(float c, float lo, float extent)
 }
 
 static void fill_bins(const struct bvh_item *items, size_t count, int axis,
-                      const struct box *centres, struct bin bins[BINS])
+                      const bvh_box *centres, struct bin bins[BINS])
 {
     float lo = centres->lo[axis], extent = centres->hi[axis] - lo;
     for (int i = 0; i < BINS; i++) {
@@ -83,7 +82,7 @@ static void fill_bins(const struct bvh_item *items, size_t count, int axis,
 static void try_axis(const struct bin bins[BINS], int axis, struct split *best)
 {
     float right_cost[BINS];
-    struct box box;
+    bvh_box box;
     size_t n = 0;
     box_clear(&box);
     for (int i = BINS - 1; i > 0; i--) {
@@ -106,7 +105,7 @@ static void try_axis(const struct bin bins[BINS], int axis, struct split *best)
 }
 
 static struct split find_split(const struct bvh_item *items, size_t count,
-                               const struct box *centres)
+                               const bvh_box *centres)
 {
     struct split best = {-1, 0, INFINITY};
     struct bin bins[BINS];
@@ -120,7 +119,7 @@ static struct split find_split(const struct bvh_item *items, size_t count,
 }
 
 static size_t partition(struct bvh_item *items, size_t count,
-                        const struct split *s, const struct box *centres)
+                        const struct split *s, const bvh_box *centres)
 {
     float lo = centres->lo[s->axis], extent = centres->hi[s->axis] - lo;
     size_t left = 0;
@@ -144,12 +143,12 @@ static bool has_tree(const struct bvh_item *items, size_t count, uint64_t from)
 
 /* Where to cut the items of a node; 0: make it a leaf. */
 static size_t cut(struct bvh_item *items, size_t count, int depth,
-                  const struct box *box, const struct box *centres,
+                  const bvh_box *box, const bvh_box *centres,
                   const struct shape *shape)
 {
     if (count <= 1)
         return 0;
-    bool must = count > LEAF || has_tree(items, count, shape->from);
+    bool must = count > BVH_LEAF || has_tree(items, count, shape->from);
     if (depth < shape->median) {
         struct split s = find_split(items, count, centres);
         float leaf_cost = box_area(box) * (float)count;
@@ -163,37 +162,34 @@ static size_t cut(struct bvh_item *items, size_t count, int depth,
     return must ? count / 2 : 0;
 }
 
-static bool make_node(struct flat *f, struct bvh_item *items,
+static void make_part(struct bvh_binary *to, struct bvh_item *items,
                       struct task *stack, int *tasks, struct task t,
-                      const struct shape *shape, struct brume_error *err)
+                      const struct shape *shape)
 {
-    struct box box, centres;
-    struct bvh_item *part = items + t.first;
-    box_clear(&box);
+    bvh_box *box = &to->box[t.node], centres;
+    wide_part *part = &to->part[t.node];
+    struct bvh_item *own = items + t.first;
+    box_clear(box);
     box_clear(&centres);
     for (size_t i = 0; i < t.count; i++) {
-        float c[3] = {centre(&part[i], 0), centre(&part[i], 1),
-                      centre(&part[i], 2)};
-        box_add(&box, part[i].lo, part[i].hi);
+        float c[3] = {centre(&own[i], 0), centre(&own[i], 1),
+                      centre(&own[i], 2)};
+        box_add(box, own[i].lo, own[i].hi);
         box_add(&centres, c, c);
     }
-    memcpy(f->bvh[t.node].lo, box.lo, sizeof box.lo);
-    memcpy(f->bvh[t.node].hi, box.hi, sizeof box.hi);
-    size_t left = cut(part, t.count, t.depth, &box, &centres, shape);
-    if (left == 0) {
-        f->bvh[t.node].first = (uint32_t)(f->bvh_items_count + t.first);
-        f->bvh[t.node].count = (uint32_t)t.count;
-        return true;
-    }
-    uint32_t child = (uint32_t)f->bvh_count;
-    if (!FLAT_EXTEND(f, bvh, 2, err))
-        return false;
-    f->bvh[t.node].first = child;
-    f->bvh[t.node].count = 0;
+    size_t left = cut(own, t.count, t.depth, box, &centres, shape);
+    part->leaf = left == 0;
+    part->items = (uint8_t)(left == 0 ? t.count : BVH_LEAF + 1);
+    part->child[0] = (uint32_t)t.first;
+    if (left == 0)
+        return;
+    uint32_t child = (uint32_t)to->count;
+    to->count += 2;
+    part->child[0] = child;
+    part->child[1] = child + 1;
     stack[(*tasks)++] = (struct task){t.first + left, t.count - left, child + 1,
                                       t.depth + 1};
     stack[(*tasks)++] = (struct task){t.first, left, child, t.depth + 1};
-    return true;
 }
 
 void bvh_widen(struct bvh_item *item)
@@ -207,23 +203,34 @@ void bvh_triangle(const struct flat *flat, uint64_t triangle,
     lbvh_triangle_box(flat->triangles[triangle].p, out->lo, out->hi);
 }
 
+static void build_binary(struct bvh_binary *to, struct bvh_item *items,
+                         size_t count, const struct shape *shape)
+{
+    struct task stack[2 * BVH_STACK] = {{0, count, 0, 0}};
+    int tasks = 1;
+    to->count = 1;
+    while (tasks > 0)
+        tasks--, make_part(to, items, stack, &tasks, stack[tasks], shape);
+}
+
 static bool build(struct flat *flat, struct bvh_item *items, size_t count,
                   const struct shape *shape, struct brume_error *err)
 {
     if (count == 0)
         return true;
-    uint32_t root = (uint32_t)flat->bvh_count;
-    if (!FLAT_EXTEND(flat, bvh, 1, err))
-        return false;
-    struct task stack[2 * BVH_STACK] = {{0, count, root, 0}};
-    int tasks = 1;
+    struct bvh_binary binary = {
+        memory_new(2 * count - 1, sizeof *binary.part, err),
+        memory_new(2 * count - 1, sizeof *binary.box, err), 0};
+    bool good = binary.part && binary.box;
     for (size_t i = 0; i < count; i++)
         bvh_widen(&items[i]);
-    while (tasks > 0)
-        if (tasks--,
-            !make_node(flat, items, stack, &tasks, stack[tasks], shape, err))
-            return false;
-    uint32_t *names = FLAT_EXTEND(flat, bvh_items, count, err);
+    if (good) {
+        build_binary(&binary, items, count, shape);
+        good = bvh_collapse(flat, &binary, shape->room, err);
+    }
+    free(binary.part);
+    free(binary.box);
+    uint32_t *names = good ? FLAT_EXTEND(flat, bvh_items, count, err) : NULL;
     for (size_t i = 0; names && i < count; i++)
         names[i] = items[i].name;
     return names != NULL;
@@ -232,36 +239,17 @@ static bool build(struct flat *flat, struct bvh_item *items, size_t count,
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err)
 {
-    const struct shape shape = {UINT64_MAX, BVH_STACK / 2 - 2};
+    const struct shape shape = {UINT64_MAX, BVH_STACK / 2 - 2, BVH_STACK / 2};
     return build(flat, items, count, &shape, err);
 }
 
 /* Halving count items takes as many levels as it has bits. */
 bool bvh_build_over(struct flat *flat, struct bvh_item *items, size_t count,
-                    uint64_t from, int depth, struct brume_error *err)
+                    uint64_t from, int room, struct brume_error *err)
 {
     int bits = 0;
     while (count >> bits > 0)
         bits++;
-    const struct shape shape = {from, depth - bits - 1};
+    const struct shape shape = {from, room - bits - 1, room};
     return build(flat, items, count, &shape, err);
-}
-
-int bvh_depth(const struct flat *flat, uint32_t root)
-{
-    struct {
-        uint32_t node;
-        int depth;
-    } stack[2 * BVH_STACK] = {{root, 0}}, top;
-    int most = 0, held = 1;
-    while (held > 0) {
-        top = stack[--held];
-        most = top.depth > most ? top.depth : most;
-        const bvh_node *node = &flat->bvh[top.node];
-        for (uint32_t i = 0; node->count == 0 && i < 2; i++) {
-            stack[held].node = node->first + i;
-            stack[held++].depth = top.depth + 1;
-        }
-    }
-    return most;
 }

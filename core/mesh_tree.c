@@ -56,7 +56,7 @@ static bool build(struct mesh_tree *tree)
         own_item(m, t, &box, &items[t]);
     bool good = bvh_build(&tree->own, items, m->triangles, NULL);
     free(items);
-    tree->depth = bvh_depth(&tree->own, 0);
+    tree->room = bvh_room(&tree->own, 0);
     return good;
 }
 
@@ -119,7 +119,7 @@ void mesh_trees_drop(struct mesh_tree **list, bool all)
 
 /* ---- where the mesh is -------------------------------------------------- */
 
-static void add_box(bvh_node *to, const float lo[3], const float hi[3])
+static void add_box(bvh_box *to, const float lo[3], const float hi[3])
 {
     for (int k = 0; k < 3; k++) {
         to->lo[k] = fminf(to->lo[k], lo[k]);
@@ -127,22 +127,42 @@ static void add_box(bvh_node *to, const float lo[3], const float hi[3])
     }
 }
 
-/* Children come behind their parent: from the last node to the root. */
-static void fit(struct flat *f, bvh_node *node)
+/* Around the items of a leaf. */
+static void fit_items(const struct flat *f, const uint32_t *name,
+                      uint32_t count, bvh_box *box)
 {
-    for (int k = 0; k < 3; k++) {
-        node->lo[k] = INFINITY;
-        node->hi[k] = -INFINITY;
-    }
-    for (uint32_t i = 0; i < node->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         struct bvh_item item;
-        bvh_triangle(f, f->bvh_items[node->first + i] - f->shapes_count, &item);
+        bvh_triangle(f, name[i] - f->shapes_count, &item);
         bvh_widen(&item);
-        add_box(node, item.lo, item.hi);
+        add_box(box, item.lo, item.hi);
     }
-    for (int i = 0; node->count == 0 && i < 2; i++)
-        add_box(node, f->bvh[node->first + (uint32_t)i].lo,
-                f->bvh[node->first + (uint32_t)i].hi);
+}
+
+/* Around the children of a node; those that are not there are infinite. */
+static void fit_children(const bvh_node *node, bvh_box *box)
+{
+    for (int i = 0; i < BVH_WIDTH; i++) {
+        const float lo[3] = {node->lo[0][i], node->lo[1][i], node->lo[2][i]};
+        const float hi[3] = {node->hi[0][i], node->hi[1][i], node->hi[2][i]};
+        if (lo[0] < INFINITY)
+            add_box(box, lo, hi);
+    }
+}
+
+/* Children come behind their parent: from the last node to the root. */
+static void fit(const struct flat *f, bvh_node *node)
+{
+    for (int i = 0; i < BVH_WIDTH && node->lo[0][i] < INFINITY; i++) {
+        uint32_t first = node->first[i], count = node->count[i];
+        bvh_box box = {{INFINITY, INFINITY, INFINITY},
+                       {-INFINITY, -INFINITY, -INFINITY}};
+        if (count > 0)
+            fit_items(f, f->bvh_items + first, count, &box);
+        else
+            fit_children(&f->bvh[first], &box);
+        wide_put(node, i, &box, first, count);
+    }
 }
 
 bool mesh_tree_add(const struct mesh_tree *tree, struct flat *flat,
@@ -160,7 +180,8 @@ bool mesh_tree_add(const struct mesh_tree *tree, struct flat *flat,
         names[i] = name + own->bvh_items[i];
     for (size_t i = own->bvh_count; i-- > 0;) {
         node[i] = own->bvh[i];
-        node[i].first += node[i].count > 0 ? item : root;
+        for (int k = 0; k < BVH_WIDTH; k++)
+            node[i].first[k] += node[i].count[k] > 0 ? item : root;
         fit(flat, &node[i]);
     }
     return true;

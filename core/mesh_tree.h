@@ -10,7 +10,7 @@ struct mesh_tree {
     struct mesh_tree *next;
     struct mesh *mesh;          /* a share of it                           */
     struct flat own;            /* bvh and bvh_items: numbers of triangles */
-    int depth;
+    int room;                   /* places of a search                      */
     bool used;                  /* by the frame that is prepared           */
 };
 

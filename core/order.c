@@ -45,7 +45,7 @@ uint64_t order_bytes(const struct flat *flat)
         return 0;
     return flat->order->tree == BRUME_TREE_KD
                ? n * (3 * sizeof(kd_node) + 6 * sizeof(uint32_t))
-               : (2 * n - 1) * sizeof(bvh_node) + n * sizeof(uint32_t);
+               : (n / 3 + 1) * sizeof(bvh_node) + n * sizeof(uint32_t);
 }
 
 static struct bvh_item *list_items(const struct flat *flat,

@@ -252,8 +252,8 @@ struct trees {
     struct mesh_tree **of;
     uint32_t *root;
     uint64_t from; /* names of those of the parts                 */
-    int deepest;
-    bool later; /* the tree of all is left to the backend      */
+    int room;      /* places of a search of one of them           */
+    bool later;    /* the tree of all is left to the backend      */
 };
 
 static void triangle_item(const struct flat *f, size_t i, struct bvh_item *out)
@@ -270,10 +270,10 @@ static bool is_sought(const struct flat *f, size_t i)
     return seen || csg_has_media(&f->view, s);
 }
 
-/* Levels that are left for the tree of all. */
-static int levels(const struct trees *trees)
+/* Places that are left for the tree of all. */
+static int room(const struct trees *trees)
 {
-    return BVH_STACK - 1 - trees->deepest;
+    return BVH_STACK - 1 - trees->room;
 }
 
 static bool build_tree(const struct prepare *job, const struct trees *trees,
@@ -287,8 +287,8 @@ static bool build_tree(const struct prepare *job, const struct trees *trees,
         return order_tree(f, job->tree, job->tree_stack, items, count, err);
     switch (job->tree) {
     case BRUME_TREE_BVH:
-        good = still_bvh(job->still, f, items, count, trees->from,
-                         levels(trees), err);
+        good = still_bvh(job->still, f, items, count, trees->from, room(trees),
+                         err);
         break;
     case BRUME_TREE_KD:
         good = kd_build(f, items, count, job->tree_stack, err);
@@ -360,14 +360,15 @@ static void list_meshes(const struct flat *f, const struct assembly *a,
 }
 
 /* The leaf of a large mesh becomes the root of its tree. */
-static bool add_tree(struct flat *f, struct trees *trees, uint32_t leaf,
-                     struct brume_error *err)
+static bool add_tree(struct flat *f, struct trees *trees, size_t node,
+                     uint32_t child, struct brume_error *err)
 {
-    size_t part = f->bvh_items[f->bvh[leaf].first] - trees->from;
+    size_t part = f->bvh_items[f->bvh[node].first[child]] - trees->from;
     trees->root[part] = (uint32_t)f->bvh_count;
     if (!mesh_tree_add(trees->of[part], f, f->shapes[part].triangle, err))
         return false;
-    f->bvh[leaf] = f->bvh[trees->root[part]];
+    f->bvh[node].first[child] = trees->root[part];
+    f->bvh[node].count[child] = 0;
     return true;
 }
 
@@ -376,10 +377,11 @@ static bool add_trees(struct flat *f, struct trees *trees, size_t first,
 {
     size_t end = f->bvh_count;
     for (size_t i = first; trees->of && i < end; i++)
-        if (f->bvh[i].count == 1 &&
-            f->bvh_items[f->bvh[i].first] >= trees->from &&
-            !add_tree(f, trees, (uint32_t)i, err))
-            return false;
+        for (uint32_t k = 0; k < BVH_WIDTH; k++)
+            if (f->bvh[i].count[k] == 1 &&
+                f->bvh_items[f->bvh[i].first[k]] >= trees->from &&
+                !add_tree(f, trees, i, k, err))
+                return false;
     return true;
 }
 
@@ -431,7 +433,7 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
     struct brume_still *still = job->still;
     struct flat *f = job->flat;
     size_t count = a->parts_count;
-    enum { DEEPEST = BVH_STACK / 2 };
+    enum { MOST = BVH_STACK / 2 };
     trees->from = f->shapes_count + f->triangles_count;
     if (!still || job->tree != BRUME_TREE_BVH || job->exact || trees->later)
         return true;
@@ -445,12 +447,12 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
             f->shapes[i].triangles >= MESH_TREE_WORTH)
             tree = mesh_tree_of(&still->tree, a->parts[i].leaf.mesh,
                                 &still->tree_builds);
-        if (!tree || tree->depth > DEEPEST)
+        if (!tree || tree->room > MOST)
             continue;
         still->tree_uses++;
         trees->of[i] = tree;
-        if (trees->deepest < tree->depth)
-            trees->deepest = tree->depth;
+        if (trees->room < tree->room)
+            trees->room = tree->room;
     }
     mesh_trees_drop(&still->tree, false);
     return true;

@@ -223,14 +223,14 @@ static void keep_bvh(struct brume_still *s, const struct flat *flat)
 }
 
 bool still_bvh(struct brume_still *still, struct flat *flat,
-               struct bvh_item *items, size_t count, uint64_t from, int depth,
+               struct bvh_item *items, size_t count, uint64_t from, int room,
                struct brume_error *err)
 {
     bool first = flat->bvh_count == 0 && flat->bvh_items_count == 0;
     if (!still || !first || count == 0)
-        return bvh_build_over(flat, items, count, from, depth, err);
+        return bvh_build_over(flat, items, count, from, room, err);
     size_t size = count * sizeof *items;
-    if (still->bvh && still->alls == count && still->depth == depth &&
+    if (still->bvh && still->alls == count && still->room == room &&
         memcmp(still->all, items, size) == 0)
         return take_bvh(still, flat, err);
     forget_bvh(still);
@@ -240,8 +240,8 @@ bool still_bvh(struct brume_still *still, struct flat *flat,
         still->alls = count;
     }
     still->bvh_builds++;
-    still->depth = depth;
-    if (!bvh_build_over(flat, items, count, from, depth, err))
+    still->room = room;
+    if (!bvh_build_over(flat, items, count, from, room, err))
         return false;
     if (still->all)
         keep_bvh(still, flat);

@@ -14,7 +14,7 @@ struct brume_still {
     kd_node *node;
     uint32_t *reference;    /* numbers of items                            */
     size_t nodes, references;
-    bvh_node box;
+    bvh_box box;
     int builds;             /* of the tree, so far                         */
     /* Of BRUME_TREE_BVH: all of the last frame's items, and their tree. */
     struct bvh_item *all;
@@ -22,7 +22,7 @@ struct brume_still {
     bvh_node *bvh;
     uint32_t *bvh_item;
     size_t bvhs, bvh_items;
-    int bvh_builds, depth;
+    int bvh_builds, room;
     struct mesh_tree *tree; /* of large meshes                             */
     int tree_builds, tree_uses;
     void *pixels;           /* a film's memory, while no film has it       */
@@ -42,6 +42,6 @@ bool still_build(struct brume_still *still, struct flat *flat,
  * frame's where all are the same; the first tree of `flat`. `still` may be
  * NULL. */
 bool still_bvh(struct brume_still *still, struct flat *flat,
-               struct bvh_item *items, size_t count, uint64_t from, int depth,
+               struct bvh_item *items, size_t count, uint64_t from, int room,
                struct brume_error *err);
 #endif

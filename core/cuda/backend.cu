@@ -50,7 +50,7 @@ void cuda_close(void *state)
     if (s) {
         device_arena_free(&s->arena);
         device_arena_free(&s->field);
-        device_arena_free(&s->kd.arena);
+        device_arena_free(&s->tree);
         device_clock_free(&s->clock);
         upload_free(&s->to);
     }
@@ -110,7 +110,7 @@ size_t frame_bytes(const cuda_state *s)
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
-                   photons_bytes(s) + tree_scene_bytes(s) + paths_bytes(s);
+                   photons_bytes(s) + paths_bytes(s);
 #define X(type, name)                                                          \
     if (!stays(s, view->name, view->name##_count * sizeof(type)))              \
         bytes += device_round(view->name##_count * sizeof(type));

@@ -30,7 +30,7 @@ struct cuda_state {
     uint64_t reserved;          /* memory that has been told of            */
     device_clock clock;
     brume_device_seconds spent; /* since the last sample                   */
-    tree_kd kd;                 /* the scene's, if it does not stay        */
+    device_arena tree;          /* built here, if it does not stay         */
 };
 
 /* photons.cu */
@@ -50,9 +50,8 @@ bool cuda_renew(void *state, brume_error *err);
 
 /* tree_scene.cu */
 
-/* Bytes of a tree that is left to the device. */
-size_t tree_scene_bytes(const cuda_state *s);
-/* Builds it, or takes that of a frame before; the triangles are there. */
+/* Builds a tree that is left to the device, or takes that of a frame before;
+ * the triangles are there. */
 bool tree_scene_build(cuda_state *s, brume_error *err);
 
 /* backend.cu */

@@ -31,7 +31,7 @@ void resident_end(resident_set *set);
 /* What there is to tell of memory that the device fills itself. */
 struct resident_note {
     uint64_t count[2];
-    bvh_node box;
+    bvh_box box;
 };
 
 /* The hash of an array that was taken; false: it is none. */

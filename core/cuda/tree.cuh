@@ -23,7 +23,7 @@ inline uint32_t tree_count(const tree_items *items)
 
 /* Bounds of items with what a hit may lie outside of them, on the device. */
 struct tree_bounds {
-    lbvh_box *box;
+    bvh_box *box;
     uint32_t *name;
 };
 
@@ -62,25 +62,46 @@ cudaError_t tree_sort(uint64_t *code[2], uint32_t *order[2], uint32_t count,
 cudaError_t tree_sum(const uint64_t *from, uint64_t *to, uint32_t count,
                      void *scratch, size_t bytes);
 
-/* Where a BVH goes: room for 2 count - 1 nodes, of which node[0] is the root,
- * and for count names; and their numbers in the scene's arrays. */
+/* A binary tree on the device, as clusters of lbvh.h by their ids: items in the
+ * order of their codes, then as many places for inner nodes, of which one is
+ * never taken; and what the wide one is made of. All lies in the scratch that
+ * it was built in. */
+struct tree_binary {
+    uint32_t count;
+    tree_bounds bounds;
+    uint32_t *order;        /* items by their codes                        */
+    bvh_box *box;
+    wide_part *part;
+    uint32_t *above;        /* the id of the cluster that it is part of    */
+    uint8_t *room;          /* per place, of a node of the wide tree: 1 and
+                               the places that a search has there; or 0    */
+    uint64_t *made;         /* 1 << 32 of such a node, and items of its
+                               leaves; one more than places                */
+    uint64_t *before;       /* the sums of these                           */
+    uint32_t root, free;    /* its id; the place that is not taken         */
+    uint32_t nodes;         /* of the wide tree                            */
+    bool even;              /* it was too deep at first: halved instead    */
+};
+
+/* Where a BVH goes: node[0] is the root; and numbers of both in the scene's
+ * arrays. */
 struct tree_bvh {
     bvh_node *node;
     uint32_t *item;
     uint32_t root, first;
 };
 
-/* What became of it, on the host. */
-struct tree_shape {
-    uint32_t depth, nodes;
-    bool even;              /* of the wrong shape at first: halved instead */
-};
-
-/* tree_bvh.cu: builds it, no deeper than `depth`, 40 and more. */
+/* tree_bvh.cu: builds the binary tree and finds how many nodes the wide one
+ * has, of which a search keeps `places`, 40 and more, at most. */
 size_t tree_bvh_bytes(uint32_t count);
-bool tree_build_bvh(const tree_items *items, const tree_bvh *to, int depth,
-                    device_arena *scratch, tree_shape *shape,
+bool tree_build_binary(const tree_items *items, int places,
+                       device_arena *scratch, tree_binary *to,
+                       brume_error *err);
+
+/* tree_wide.cu: finds the nodes, with scratch as of tree_sum; makes them. */
+bool tree_find_wide(tree_binary *b, int places, void *scratch, size_t bytes,
                     brume_error *err);
+bool tree_make_wide(const tree_binary *b, const tree_bvh *to, brume_error *err);
 
 /* A kd-tree, on the device until it is freed. */
 struct tree_kd {
@@ -88,7 +109,7 @@ struct tree_kd {
     kd_node *node;
     uint32_t *item;
     uint64_t nodes, items;
-    bvh_node box;
+    bvh_box box;
 };
 
 /* tree_kd.cu: builds the tree that kd_build builds, in other places of the

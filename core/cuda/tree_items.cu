@@ -6,10 +6,10 @@ namespace
 
 const int block_size = 256, warp_size = 32;
 
-__device__ __forceinline__ lbvh_box box_of(const tree_items *items, uint32_t i,
+__device__ __forceinline__ bvh_box box_of(const tree_items *items, uint32_t i,
                                            uint32_t *name)
 {
-    lbvh_box box;
+    bvh_box box;
     if (i < items->shapes) {
         const bvh_item *shape = &items->shape[i];
         for (int k = 0; k < 3; k++) {
@@ -56,7 +56,7 @@ __global__ void __launch_bounds__(block_size)
     float hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     if (i < items.shapes + items.triangles) {
         uint32_t name;
-        lbvh_box box = box_of(&items, i, &name);
+        bvh_box box = box_of(&items, i, &name);
         to.box[i] = box;
         to.name[i] = name;
         for (int k = 0; k < 3; k++) {

@@ -57,7 +57,7 @@ __device__ __forceinline__ float clip(const kd_task *t, int axis, float x)
     return fminf(fmaxf(x, t->lo[axis]), t->hi[axis]);
 }
 
-__device__ __forceinline__ void fill(const kd_task *t, const lbvh_box *box,
+__device__ __forceinline__ void fill(const kd_task *t, const bvh_box *box,
                                      uint32_t *bin)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -203,7 +203,7 @@ __device__ __forceinline__ void find_sides(const build *b, uint32_t i,
                                            bool *below, bool *above)
 {
     const kd_split *s = &b->split[b->owner[i]];
-    const lbvh_box *box = &b->bounds.box[b->ref[i]];
+    const bvh_box *box = &b->bounds.box[b->ref[i]];
     *below = s->axis >= 0 && box->lo[s->axis] <= s->at;
     *above = s->axis >= 0 && box->hi[s->axis] >= s->at;
 }
@@ -368,7 +368,7 @@ template <typename type> type *take(device_arena *from, size_t count)
 size_t lay_out(build *b, device_arena *from, size_t sum_bytes, void **sums)
 {
     size_t parts = b->most.parts + 1, refs = b->most.refs + 1;
-    b->bounds = {take<lbvh_box>(from, b->count),
+    b->bounds = {take<bvh_box>(from, b->count),
                  take<uint32_t>(from, b->count)};
     b->extent = take<tree_extent>(from, 1);
     b->now = take<part>(from, parts);

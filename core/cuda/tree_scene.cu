@@ -27,14 +27,6 @@ uint32_t *names_of(const layout *l, void *base)
                                         device_round(l->node * l->nodes));
 }
 
-/* With room for the tree behind those that the host has built. */
-layout bvh_layout(const flat *f)
-{
-    size_t n = order_count(f);
-    return {sizeof(bvh_node), f->bvh_count + 2 * n - 1, sizeof(uint32_t),
-            f->bvh_items_count + n};
-}
-
 /* What a tree is of; false: its triangles do not stay, so it is not kept. */
 bool find_key(const cuda_state *s, uint64_t *key)
 {
@@ -66,41 +58,30 @@ bool send_items(const cuda_state *s, device_arena *scratch, tree_items *items,
         "uploading the shapes of a tree", err);
 }
 
-/* The host's part of the arrays is copied before. */
-bool build_bvh(const cuda_state *s, const layout *l, void *base,
-               resident_note *note, brume_error *err)
+/* Memory for a tree: what stays, or the frame's own. NULL with err set. */
+void *tree_memory(cuda_state *s, bool stays, uint64_t key, const layout *l,
+                  brume_error *err)
 {
-    const flat *f = s->frame.flat;
-    uint32_t n = static_cast<uint32_t>(order_count(f));
-    bvh_node *node = static_cast<bvh_node *>(base);
-    uint32_t *name = names_of(l, base);
-    device_arena scratch = {};
-    tree_items items;
-    tree_shape shape = {};
-    tree_bvh to = {node + f->bvh_count, name + f->bvh_items_count,
-                   static_cast<uint32_t>(f->bvh_count),
-                   static_cast<uint32_t>(f->bvh_items_count)};
-    size_t bytes = tree_bvh_bytes(n) +
-                   device_round(f->order->shapes * sizeof(bvh_item));
-    bool good = device_arena_new(&scratch, bytes, err) &&
-                send_items(s, &scratch, &items, err) &&
-                device_check(cudaMemcpy(node, f->bvh,
-                                        f->bvh_count * sizeof *node,
-                                        cudaMemcpyHostToDevice),
-                             "uploading bvh", err) &&
-                device_check(cudaMemcpy(name, f->bvh_items,
-                                        f->bvh_items_count * sizeof *name,
-                                        cudaMemcpyHostToDevice),
-                             "uploading bvh_items", err) &&
-                tree_build_bvh(&items, &to, BVH_STACK - 1, &scratch, &shape,
-                               err);
-    note->count[0] = f->bvh_count + shape.nodes;
-    note->count[1] = l->names;
-    device_arena_free(&scratch);
-    return good;
+    if (stays)
+        return resident_room(s->kept, key, bytes_of(l), err);
+    return device_arena_new(&s->tree, bytes_of(l), err) ? s->tree.base
+                                                        : nullptr;
 }
 
-bool build_kd(cuda_state *s, resident_note *note, brume_error *err)
+/* The host's trees, behind which the device's goes. */
+bool send_trees(const flat *f, bvh_node *node, uint32_t *name, brume_error *err)
+{
+    return device_check(cudaMemcpy(node, f->bvh, f->bvh_count * sizeof *node,
+                                   cudaMemcpyHostToDevice),
+                        "uploading bvh", err) &&
+           device_check(cudaMemcpy(name, f->bvh_items,
+                                   f->bvh_items_count * sizeof *name,
+                                   cudaMemcpyHostToDevice),
+                        "uploading bvh_items", err);
+}
+
+bool build_kd(const cuda_state *s, tree_kd *to, resident_note *note,
+              brume_error *err)
 {
     const flat *f = s->frame.flat;
     device_arena scratch = {};
@@ -109,11 +90,11 @@ bool build_kd(cuda_state *s, resident_note *note, brume_error *err)
                     &scratch, device_round(f->order->shapes * sizeof(bvh_item)),
                     err) &&
                 send_items(s, &scratch, &items, err) &&
-                tree_build_kd(&items, &s->kd, err);
+                tree_build_kd(&items, to, err);
     device_arena_free(&scratch);
-    note->count[0] = s->kd.nodes;
-    note->count[1] = s->kd.items;
-    note->box = s->kd.box;
+    note->count[0] = to->nodes;
+    note->count[1] = to->items;
+    note->box = to->box;
     return good;
 }
 
@@ -136,14 +117,25 @@ void point_at(cuda_state *s, const layout *l, void *base,
     to->bvh_items_count = note->count[1];
 }
 
-/* Into memory that stays, or the frame's. */
-bool place_bvh(cuda_state *s, bool stays, uint64_t key, brume_error *err)
+/* Where the tree goes is taken when it is known how large it is. */
+bool make_bvh(cuda_state *s, bool stays, uint64_t key, const tree_binary *b,
+              brume_error *err)
 {
-    layout l = bvh_layout(s->frame.flat);
+    const flat *f = s->frame.flat;
+    layout l = {sizeof(bvh_node), f->bvh_count + b->nodes, sizeof(uint32_t),
+                f->bvh_items_count + b->count};
     resident_note note = {};
-    void *base = stays ? resident_room(s->kept, key, bytes_of(&l), err)
-                       : device_take(&s->arena, bytes_of(&l));
-    if (!base || !build_bvh(s, &l, base, &note, err))
+    note.count[0] = l.nodes;
+    note.count[1] = l.names;
+    void *base = tree_memory(s, stays, key, &l, err);
+    if (!base)
+        return false;
+    bvh_node *node = static_cast<bvh_node *>(base);
+    uint32_t *name = names_of(&l, base);
+    tree_bvh to = {node + f->bvh_count, name + f->bvh_items_count,
+                   static_cast<uint32_t>(f->bvh_count),
+                   static_cast<uint32_t>(f->bvh_items_count)};
+    if (!send_trees(f, node, name, err) || !tree_make_wide(b, &to, err))
         return false;
     if (stays)
         resident_say(s->kept, key, &note);
@@ -151,38 +143,50 @@ bool place_bvh(cuda_state *s, bool stays, uint64_t key, brume_error *err)
     return true;
 }
 
-/* The frame's own tree is copied to memory that stays. */
+bool place_bvh(cuda_state *s, bool stays, uint64_t key, brume_error *err)
+{
+    const flat *f = s->frame.flat;
+    uint32_t n = static_cast<uint32_t>(order_count(f));
+    device_arena scratch = {};
+    tree_items items;
+    tree_binary binary;
+    size_t bytes = tree_bvh_bytes(n) +
+                   device_round(f->order->shapes * sizeof(bvh_item));
+    bool good = device_arena_new(&scratch, bytes, err) &&
+                send_items(s, &scratch, &items, err) &&
+                tree_build_binary(&items, BVH_STACK - 1, &scratch, &binary,
+                                  err) &&
+                make_bvh(s, stays, key, &binary, err);
+    device_arena_free(&scratch);
+    return good;
+}
+
+/* The builder's own memory, or a copy that stays. */
 bool place_kd(cuda_state *s, bool stays, uint64_t key, brume_error *err)
 {
     resident_note note = {};
-    if (!build_kd(s, &note, err))
+    tree_kd kd = {};
+    if (!build_kd(s, &kd, &note, err)) {
+        device_arena_free(&kd.arena);
         return false;
+    }
     layout l = {sizeof(kd_node), note.count[0], sizeof(uint32_t),
                 note.count[1]};
-    void *base = s->kd.arena.base;
+    s->tree = kd.arena;
+    void *base = s->tree.base;
     if (stays) {
         base = resident_room(s->kept, key, bytes_of(&l), err);
-        if (!base ||
-            !device_check(cudaMemcpy(base, s->kd.arena.base, bytes_of(&l),
-                                     cudaMemcpyDeviceToDevice),
-                          "keeping the kd-tree", err))
+        if (!base || !device_check(cudaMemcpy(base, s->tree.base, bytes_of(&l),
+                                              cudaMemcpyDeviceToDevice),
+                                   "keeping the kd-tree", err))
             return false;
         resident_say(s->kept, key, &note);
-        device_arena_free(&s->kd.arena);
+        device_arena_free(&s->tree);
     }
     point_at(s, &l, base, &note);
     return true;
 }
 
-}
-
-size_t tree_scene_bytes(const cuda_state *s)
-{
-    const flat *f = s->frame.flat;
-    if (!f->order || f->order->tree == BRUME_TREE_KD)
-        return 0;
-    layout l = bvh_layout(f);
-    return bytes_of(&l);
 }
 
 bool tree_scene_build(cuda_state *s, brume_error *err)
@@ -195,9 +199,8 @@ bool tree_scene_build(cuda_state *s, brume_error *err)
     bool kd = f->order->tree == BRUME_TREE_KD, stays = find_key(s, &key);
     void *there = stays ? resident_find(s->kept, key, &note) : nullptr;
     if (there) {
-        layout l = kd ? layout{sizeof(kd_node), note.count[0], sizeof(uint32_t),
-                               note.count[1]}
-                      : bvh_layout(f);
+        layout l = {kd ? sizeof(kd_node) : sizeof(bvh_node), note.count[0],
+                    sizeof(uint32_t), note.count[1]};
         point_at(s, &l, there, &note);
         resident_tree(s->kept, false);
         return true;

@@ -50,11 +50,11 @@ HD csg_place csg_at_point(real3 p)
 
 /* Triangles of a leaf of a mesh's tree that the ray crosses behind h. */
 HD int csg_count_leaf(const flat_scene *s, const bvh_ray *r,
-                      const bvh_node *n, const ray_hit *h)
+                      const uint32_t *items, uint32_t n, const ray_hit *h)
 {
     int count = 0;
-    for (uint32_t i = 0; i < n->count; i++) {
-        uint64_t item = s->bvh_items[n->first + i];
+    for (uint32_t i = 0; i < n; i++) {
+        uint64_t item = items[i];
         const flat_triangle *f = &s->triangles[item - s->shapes_count];
         real t, u, v;
         if (triangle_hit(&r->shear, r->o, real3_from(f->p[0]),
@@ -76,21 +76,26 @@ HD_APART bool csg_mesh(const flat_scene *s, const flat_shape *f,
                           : bvh_ray_make(at->p, real3_from(f->inside));
     ray_hit h = hit_none(at->t);
     h.key = at->key;
-    uint32_t stack[BVH_STACK];
-    int depth = 0, count = 0;
-    stack[depth++] = (uint32_t)f->tree;
-    while (depth > 0) {
-        const bvh_node *n = &s->bvh[stack[--depth]];
-        if (bvh_enter(n, &own, at->t, INFINITY) == INFINITY)
-            continue;
-        if (n->count > 0) {
-            count += csg_count_leaf(s, &own, n, &h);
-        } else {
-            stack[depth++] = n->first;
-            stack[depth++] = n->first + 1;
+    uint32_t stack[BVH_STACK], node = (uint32_t)f->tree;
+    int held = 0, count = 0;
+    for (;;) {
+        real t[BVH_WIDTH];
+        bvh_enter_all(&s->bvh[node], &own, at->t, INFINITY, t);
+        for (int i = 0; i < BVH_WIDTH; i++)
+            if (t[i] < INFINITY)
+                stack[held++] = BVH_WIDTH * node + (uint32_t)i;
+        for (;;) {
+            if (held == 0)
+                return count & 1;
+            uint32_t child = stack[--held], i = child % BVH_WIDTH;
+            const bvh_node *n = &s->bvh[child / BVH_WIDTH];
+            node = n->first[i];
+            if (n->count[i] == 0)
+                break;
+            count += csg_count_leaf(s, &own, s->bvh_items + node, n->count[i],
+                                    &h);
         }
     }
-    return count & 1;
 }
 
 /* Whether a primitive, inverted if it says so, holds the place. */

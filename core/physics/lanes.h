@@ -40,6 +40,38 @@ HD void lanes_set(lanes *out, real a, real b, real c, real d)
 #endif
 }
 
+/* Four numbers that lie side by side, on a GPU at a multiple of 16 bytes. */
+HD void lanes_load(lanes *out, const float *from)
+{
+#if defined(__CUDACC__)
+    const float4 all = *(const float4 *)from;
+    lanes_set(out, all.x, all.y, all.z, all.w);
+#else
+    lanes_set(out, from[0], from[1], from[2], from[3]);
+#endif
+}
+
+/* As real_min and real_max: b where either is no number. */
+#if LANES_ALONE
+#define LANES_LESS(a, b, yes, no)                                             \
+    LANES_EACH(*out, (a)->v[i] < (b)->v[i] ? (yes)->v[i] : (no)->v[i])
+#else
+typedef int32_t lanes_mask __attribute__((vector_size(4 * sizeof(real))));
+#define LANES_LESS(a, b, yes, no)                                             \
+    const lanes_mask is = *(a) < *(b);                                        \
+    *out = (lanes)((is & (lanes_mask)*(yes)) | (~is & (lanes_mask)*(no)))
+#endif
+
+HD void lanes_min(lanes *out, const lanes *a, const lanes *b)
+{
+    LANES_LESS(a, b, a, b);
+}
+
+HD void lanes_max(lanes *out, const lanes *a, const lanes *b)
+{
+    LANES_LESS(b, a, a, b);
+}
+
 /* *out += a times the four numbers at `from`. */
 HD void lanes_add(lanes *out, const lanes *a, const real *from)
 {

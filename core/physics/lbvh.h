@@ -1,4 +1,5 @@
-/* lbvh.h - the steps in which a GPU builds a BVH from its leaves up.
+/* lbvh.h - the steps in which a GPU builds a binary BVH from its leaves up, of
+ * which wide.h makes the one that rays go through.
  *
  * Items are sorted by the Morton codes of their centres, the codes make a
  * hierarchy (Karras 2012), and within its nodes, from below, clusters are
@@ -8,29 +9,22 @@
 #ifndef CORE_PHYSICS_LBVH_H
 #define CORE_PHYSICS_LBVH_H
 #include "core/physics/ray.h"
+#include "core/physics/wide.h"
 
 /* Clusters that are merged at a time; those that a node leaves to the one
  * above it, at most; how far among them neighbours are sought. */
 enum { LBVH_WARP = 32, LBVH_LEFT = 16, LBVH_REACH = 8 };
-/* Items of a leaf, at most. */
-enum { LBVH_LEAF = 4 };
 enum { LBVH_NONE = -1 };
 
+/* A part of the binary tree. `id` is its root's: items, in the order of their
+ * codes, come first, then inner nodes. A merge takes the place of its right
+ * part for the inner node that it makes, and passes on that of the left one:
+ * each place is taken once, in whatever order merges happen. */
 typedef struct {
-    float lo[3], hi[3];
-} lbvh_box;
-
-/* A part of the tree. `id` is its root's: items, in the order of their codes,
- * come first, then inner nodes. A merge takes the place of its right part for
- * the inner node that it makes, and passes on that of the left one: each place
- * is taken once, in whatever order merges happen. */
-typedef struct {
-    lbvh_box box;
+    bvh_box box;
     uint32_t id, place;
-    float cost;             /* of rays in the box, in areas                */
-    uint8_t items;          /* LBVH_LEAF + 1: more                         */
-    uint8_t leaf;           /* 1: all items lie in one leaf                */
-    uint16_t depth;         /* levels below it                             */
+    wide_cost cost;         /* of rays in the box                          */
+    uint8_t items, leaf, split, depth;      /* as of its wide_part         */
 } lbvh_cluster;
 
 /* What a ray's hit may lie outside of its item: without it a tree could miss
@@ -55,16 +49,16 @@ HD void lbvh_triangle_box(const vec3 p[3], float lo[3], float hi[3])
     }
 }
 
-HD float lbvh_area(const lbvh_box *b)
+HD float lbvh_area(const bvh_box *b)
 {
     float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1];
     float z = b->hi[2] - b->lo[2];
     return x * y + y * z + z * x;
 }
 
-HD lbvh_box lbvh_union(const lbvh_box *a, const lbvh_box *b)
+HD bvh_box lbvh_union(const bvh_box *a, const bvh_box *b)
 {
-    lbvh_box out;
+    bvh_box out;
     for (int k = 0; k < 3; k++) {
         out.lo[k] = hd_min(a->lo[k], b->lo[k]);
         out.hi[k] = hd_max(a->hi[k], b->hi[k]);
@@ -130,28 +124,28 @@ HD bool lbvh_is_left(const uint64_t *code, uint32_t n, uint32_t left,
 
 /* ---- clusters ----------------------------------------------------------- */
 
-HD lbvh_cluster lbvh_item(const lbvh_box *box, uint32_t number)
+HD lbvh_cluster lbvh_item(const bvh_box *box, uint32_t number)
 {
     lbvh_cluster c;
     c.box = *box;
     c.id = c.place = number;
-    c.cost = lbvh_area(box);
+    c.cost = wide_leaf(lbvh_area(box));
     c.items = c.leaf = 1;
-    c.depth = 0;
+    c.split = c.depth = 0;
     return c;
 }
 
 /* How ill two clusters go together, those in places i and k of their row: the
  * least is the best. The lower bits name k to i, and i to k; among equals
  * those go together that make the row half as long. */
-HD uint64_t lbvh_distance(const lbvh_box *a, const lbvh_box *b, uint32_t i,
+HD uint64_t lbvh_distance(const bvh_box *a, const bvh_box *b, uint32_t i,
                           uint32_t k, bool even)
 {
     union {
         float area;
         uint32_t bits;
     } of;
-    lbvh_box both = lbvh_union(a, b);
+    bvh_box both = lbvh_union(a, b);
     of.area = even ? 0.0f : lbvh_area(&both);
     return (uint64_t)of.bits << 32 | (i ^ k);
 }
@@ -170,14 +164,14 @@ HD lbvh_cluster lbvh_merge(const lbvh_cluster *a, const lbvh_cluster *b,
     c.id = n + b->place;
     c.place = a->place;
     uint32_t items = (uint32_t)a->items + b->items;
-    c.items = (uint8_t)(items > LBVH_LEAF ? LBVH_LEAF + 1 : items);
+    c.items = (uint8_t)(items > BVH_LEAF ? BVH_LEAF + 1 : items);
     float area = lbvh_area(&c.box), whole = area * (float)c.items;
-    c.cost = area + a->cost + b->cost;
-    c.leaf = items <= LBVH_LEAF && whole <= c.cost;
+    c.cost = wide_inner(area, &a->cost, &b->cost, &c.split);
+    c.leaf = items <= BVH_LEAF && whole <= c.cost.as[0];
     if (c.leaf)
-        c.cost = whole;
+        c.cost = wide_leaf(whole);
     int depth = 1 + (a->depth > b->depth ? a->depth : b->depth);
-    c.depth = (uint16_t)(c.leaf ? 0 : depth);
+    c.depth = (uint8_t)(c.leaf ? 0 : depth < 255 ? depth : 255);
     return c;
 }
 

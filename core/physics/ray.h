@@ -4,9 +4,11 @@
  * the root of it. */
 #ifndef CORE_PHYSICS_RAY_H
 #define CORE_PHYSICS_RAY_H
+#include "core/physics/lanes.h"
 #include "core/physics/scene.h"
 #include "core/physics/triangle.h"
 
+/* Places that a search of the BVH keeps, at most. */
 enum { BVH_STACK = 64 };
 
 /* What a hit is to the media around it. */
@@ -89,7 +91,7 @@ HD real ray_slack(real t)
 
 /* Distances at which the line is in the box; the far side is widened by the
  * rounding of the slab test (Ize 2013). */
-HD void bvh_slabs(const bvh_node *n, const bvh_ray *r, real *enter,
+HD void bvh_slabs(const bvh_box *n, const bvh_ray *r, real *enter,
                   real *leave)
 {
     const real wider = REAL(1.0000004);
@@ -107,13 +109,46 @@ HD void bvh_slabs(const bvh_node *n, const bvh_ray *r, real *enter,
 
 /* Entry distance of the box within [t_min, t_max], t_min >= 0; infinite if
  * missed. */
-HD real bvh_enter(const bvh_node *n, const bvh_ray *r, real t_min, real t_max)
+HD real bvh_enter(const bvh_box *n, const bvh_ray *r, real t_min, real t_max)
 {
     real enter, leave;
     bvh_slabs(n, r, &enter, &leave);
     bool touched = enter <= leave && enter <= t_max + ray_slack(t_max) &&
                    leave >= t_min - ray_slack(t_min);
     return touched ? real_max(enter, t_min) : INFINITY;
+}
+
+/* Where a line gets into four boxes and out of them by one axis of theirs. */
+HD void bvh_cut(const float *lo, const float *hi, real o, real inverse,
+                lanes *enter, lanes *leave)
+{
+    lanes_load(enter, inverse < 0 ? hi : lo);
+    lanes_load(leave, inverse < 0 ? lo : hi);
+    LANES_EACH(*enter, (LANES_OF(*enter) - o) * inverse);
+    LANES_EACH(*leave, (LANES_OF(*leave) - o) * inverse);
+}
+
+/* What bvh_enter finds of the boxes of a node's children, but for lines in the
+ * plane of a face. */
+HD void bvh_enter_all(const bvh_node *n, const bvh_ray *r, real t_min,
+                      real t_max, real t[BVH_WIDTH])
+{
+    const real wider = REAL(1.0000004);
+    const real least = t_min - ray_slack(t_min);
+    const real most = t_max + ray_slack(t_max);
+    lanes enter, leave, near, far;
+    bvh_cut(n->lo[0], n->hi[0], r->o.x, r->inverse.x, &enter, &leave);
+    bvh_cut(n->lo[1], n->hi[1], r->o.y, r->inverse.y, &near, &far);
+    lanes_max(&enter, &enter, &near);
+    lanes_min(&leave, &leave, &far);
+    bvh_cut(n->lo[2], n->hi[2], r->o.z, r->inverse.z, &near, &far);
+    lanes_max(&enter, &enter, &near);
+    lanes_min(&leave, &leave, &far);
+    for (int i = 0; i < BVH_WIDTH; i++) {
+        real from = LANES_AT(enter, i), to = wider * LANES_AT(leave, i);
+        bool touched = from <= to && from <= most && to >= least;
+        t[i] = touched ? real_max(from, t_min) : INFINITY;
+    }
 }
 
 #endif

@@ -283,13 +283,19 @@ typedef struct {
     float lo[3], hi[3];     /* where media scatter; lo > hi: nowhere       */
 } scene_reach;
 
-/* Node of the binary BVH. A leaf has count > 0 items from `first` of
- * bvh_items; an inner node's children are `first` and `first` + 1. */
 typedef struct {
-    float lo[3];
-    uint32_t first;
-    float hi[3];
-    uint32_t count;
+    float lo[3], hi[3];
+} bvh_box;
+
+/* Node of the BVH, with the boxes of up to BVH_WIDTH children. A leaf has count
+ * > 0 items from `first` of bvh_items; a child with none is the node `first`.
+ * Where there is no child the box is infinitely far away: no ray gets there. */
+enum { BVH_WIDTH = 4 };
+enum { BVH_LEAF = 4 };      /* items of a leaf, at most                    */
+
+typedef struct {
+    float lo[3][BVH_WIDTH], hi[3][BVH_WIDTH];
+    uint32_t first[BVH_WIDTH], count[BVH_WIDTH];
 } bvh_node;
 
 /* Node of the kd-tree. A leaf has kind - KD_LEAF items from `first` of
@@ -362,7 +368,7 @@ typedef struct {
     int32_t local_lights;   /* some light is local                         */
     int32_t bvh_root;       /* of the BVH of what rays look for, or -1     */
     int32_t kd_stack;       /* entries of the ring that kd_search keeps    */
-    bvh_node kd_box;        /* what the kd-tree is in                      */
+    bvh_box kd_box;         /* what the kd-tree is in                      */
     const void *host_grids; /* of queries: the scene's (machine.h)         */
     float unit;             /* unit-space lengths per scene unit           */
     float far;              /* where rays end                              */

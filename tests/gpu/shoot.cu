@@ -80,15 +80,14 @@ tree_items items_of(const shoot *s)
     return items;
 }
 
-bool build_bvh(shoot *s, int depth, int times, double *milliseconds, bool *even,
-               brume_error *err)
+bool build_bvh(shoot *s, int places, int times, double *milliseconds,
+               bool *even, brume_error *err)
 {
     tree_items items = items_of(s);
     uint32_t n = tree_count(&items);
     device_arena scratch = {};
-    tree_shape shape = {};
-    tree_bvh to = {hold<bvh_node>(s, 2 * static_cast<size_t>(n), err),
-                   hold<uint32_t>(s, n, err), 0, 0};
+    tree_binary binary;
+    tree_bvh to = {hold<bvh_node>(s, n, err), hold<uint32_t>(s, n, err), 0, 0};
     if (!to.node || !to.item ||
         !device_arena_new(&scratch, tree_bvh_bytes(n), err))
         return false;
@@ -96,16 +95,17 @@ bool build_bvh(shoot *s, int depth, int times, double *milliseconds, bool *even,
         times, milliseconds,
         [&] {
             scratch.used = 0;
-            return tree_build_bvh(&items, &to, depth, &scratch, &shape, err);
+            return tree_build_binary(&items, places, &scratch, &binary, err) &&
+                   tree_make_wide(&binary, &to, err);
         },
         err);
     device_arena_free(&scratch);
     s->scene.bvh = to.node;
-    s->scene.bvh_count = shape.nodes;
+    s->scene.bvh_count = binary.nodes;
     s->scene.bvh_items = to.item;
     s->scene.bvh_items_count = n;
     s->scene.bvh_root = 0;
-    *even = shape.even;
+    *even = binary.even;
     return good;
 }
 
@@ -151,12 +151,12 @@ void shoot_free(shoot *s)
     delete s;
 }
 
-bool shoot_build(shoot *s, shoot_tree tree, int depth, int times,
+bool shoot_build(shoot *s, shoot_tree tree, int places, int times,
                  double *milliseconds, bool *even, brume_error *err)
 {
     *even = false;
     return tree == SHOOT_BVH
-               ? build_bvh(s, depth, times, milliseconds, even, err)
+               ? build_bvh(s, places, times, milliseconds, even, err)
                : build_kd(s, times, milliseconds, err);
 }
 

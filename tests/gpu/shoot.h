@@ -17,9 +17,9 @@ struct shoot *shoot_new(const struct flat *flat, struct brume_error *err);
 void shoot_free(struct shoot *s);
 
 /* Builds a tree over all its triangles, so many times, and takes the median of
- * the milliseconds; it is the scene's from now on. A BVH is no deeper than
- * `depth`; *even: it had to be made so. */
-bool shoot_build(struct shoot *s, enum shoot_tree tree, int depth, int times,
+ * the milliseconds; it is the scene's from now on. Of a BVH a
+ * search keeps `places` at most; *even: it had to be halved for that. */
+bool shoot_build(struct shoot *s, enum shoot_tree tree, int places, int times,
                  double *milliseconds, bool *even, struct brume_error *err);
 
 /* Puts the tree into a flat scene that has none. */

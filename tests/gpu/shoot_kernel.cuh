@@ -1,6 +1,7 @@
 /* shoot_kernel.cuh - a ray a thread. SHOOT_KERNEL names what is defined here:
  * once with the short stack of the kd-tree in each thread's own memory, once in
  * the block's. */
+#define HD_INLINE __forceinline__
 #define SCENE_MAY (MAY_MESHES | MAY_SURFACES | MAY_KDTREE)
 #define KD_THREADS 128
 #include "tests/gpu/shoot.h"

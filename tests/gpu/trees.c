@@ -125,24 +125,39 @@ static bool same_kd(const struct flat *a, const struct flat *b)
     return true;
 }
 
-/* Of the surface area heuristic: areas of nodes, and of leaves times items,
- * over the root's. */
-static double bvh_cost(const struct flat *f)
+static double area_of(const bvh_node *n, int i)
 {
-    uint32_t stack[4 * BVH_STACK] = {0};
-    double sum = 0.0, whole = 0.0;
-    for (int held = 1; held > 0 && f->bvh_count > 0;) {
-        const bvh_node *n = &f->bvh[stack[--held]];
-        double x = (double)n->hi[0] - (double)n->lo[0];
-        double y = (double)n->hi[1] - (double)n->lo[1];
-        double z = (double)n->hi[2] - (double)n->lo[2];
-        double area = x * y + y * z + z * x;
-        whole = whole > 0.0 ? whole : area;
-        sum += area * (n->count > 0 ? n->count : 1);
-        for (uint32_t i = 0; n->count == 0 && i < 2; i++)
-            stack[held++] = n->first + i;
-    }
-    return whole > 0.0 ? sum / whole : 0.0;
+    double x = (double)n->hi[0][i] - (double)n->lo[0][i];
+    double y = (double)n->hi[1][i] - (double)n->lo[1][i];
+    double z = (double)n->hi[2][i] - (double)n->lo[2][i];
+    return x * y + y * z + z * x;
+}
+
+/* What there is in a tree. */
+struct census {
+    int children, items;
+    double cost;
+};
+
+/* The cost is that of the surface area heuristic: areas of nodes, and of leaves
+ * times items, over the largest child's of the root. */
+static struct census take_census(const struct flat *f)
+{
+    struct census c = {0, 0, 0.0};
+    double whole = 0.0;
+    for (size_t i = 0; i < f->bvh_count; i++)
+        for (int k = 0; k < BVH_WIDTH; k++) {
+            const bvh_node *n = &f->bvh[i];
+            if (!(n->lo[0][k] < INFINITY))
+                continue;
+            c.children++;
+            c.items += (int)n->count[k];
+            c.cost += area_of(n, k) * (n->count[k] > 0 ? n->count[k] : 1);
+            if (i == 0)
+                whole = fmax(whole, area_of(n, k));
+        }
+    c.cost /= whole > 0.0 ? whole : 1.0;
+    return c;
 }
 
 static uint64_t count_differences(const ray_hit *a, const ray_hit *b)
@@ -186,11 +201,14 @@ static void row(const struct mesh_case *c, const char *tree, const char *where,
                 double build, const struct flat *f, double shot,
                 const char *more, uint64_t differ)
 {
-    int depth = f->bvh_count > 0 ? bvh_depth(f, 0) : 0;
-    printf("| %s, %zu | %s | %s | %.3f | %zu | %d | %.2f | %.1f | %s%" PRIu64
-           " |\n",
+    struct census census = take_census(f);
+    double wide = f->bvh_count > 0 ? census.children / (double)f->bvh_count
+                                   : 0.0;
+    printf("| %s, %zu | %s | %s | %.3f | %zu | %.2f | %d | %.2f | %.1f | "
+           "%s%" PRIu64 " |\n",
            c->name, c->mesh->count, tree, where, build,
-           f->bvh_count + f->kd_count, depth, bvh_cost(f),
+           f->bvh_count + f->kd_count, wide,
+           f->bvh_count > 0 ? bvh_room(f, 0) : 0, census.cost,
            1e-3 * (double)rays / shot, more, differ);
     fflush(stdout);
     wrong += differ;
@@ -215,10 +233,10 @@ static struct flat *host_row(const struct mesh_case *c, enum tree tree,
     return f;
 }
 
-/* The GPU's, with rays on both, a BVH no deeper than `depth`; `like`: the
- * CPU's kd-tree. */
+/* The GPU's, with rays on both, of a BVH a search keeps `places` at most;
+ * `like`: the CPU's kd-tree. */
 static void device_row(const struct mesh_case *c, enum shoot_tree tree,
-                       int depth, const struct flat *like)
+                       int places, const struct flat *like)
 {
     struct brume_error err = {0};
     struct flat *f = tree_scene(c->mesh, TREE_NONE, 4, &err);
@@ -228,7 +246,7 @@ static void device_row(const struct mesh_case *c, enum shoot_tree tree,
     double build, shot;
     bool even, same = true;
     stop_at(&err);
-    shoot_build(s, tree, depth, times, &build, &even, &err);
+    shoot_build(s, tree, places, times, &build, &even, &err);
     stop_at(&err);
     shoot_fetch(s, f, &err);
     stop_at(&err);
@@ -237,7 +255,8 @@ static void device_row(const struct mesh_case *c, enum shoot_tree tree,
         same = same_kd(f, like);
     else if (c->mesh->count > 0)
         same = names_all(f->bvh_items, f->bvh_items_count, c->mesh->count) &&
-               bvh_depth(f, 0) <= depth;
+               (size_t)take_census(f).items == c->mesh->count &&
+               bvh_room(f, 0) <= places;
     shoot_host(f, c->ray, c->got);
     uint64_t differ = count_differences(c->want, c->got);
     for (int shared = 0; shared < (tree == SHOOT_KD ? 2 : 1); shared++) {
@@ -255,7 +274,7 @@ static void device_row(const struct mesh_case *c, enum shoot_tree tree,
     flat_free(f);
 }
 
-/* `halved`: a depth at which a tree has to be halved; or 0. */
+/* `halved`: so few places that a tree has to be halved; or 0. */
 static void run(const char *name, const struct triangles *mesh, int halved)
 {
     struct mesh_case c = {.name = name, .mesh = mesh};
@@ -295,9 +314,9 @@ int main(int count, char **word)
     int divisions = count > 3 ? atoi(word[3]) : 4;
     triangles_load(&spot, "scenes/campfire/spot.ply", &err);
     stop_at(&err);
-    puts("| mesh, triangles | tree | built on | ms | nodes | depth | cost | "
-         "M rays/s | differ |\n"
-         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    puts("| mesh, triangles | tree | built on | ms | nodes | wide | places | "
+         "cost | M rays/s | differ |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     run("spot", &spot, 17);
     size_t all = rays;
     rays /= 4;

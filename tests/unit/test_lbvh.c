@@ -15,7 +15,7 @@ struct built {
     const struct triangles *mesh;
     uint32_t count, root;
     bool even;
-    lbvh_box *box; /* of items                                    */
+    bvh_box *box; /* of items                                    */
     uint64_t *code;
     uint32_t *order;
     lbvh_cluster *cluster; /* by id                                       */
@@ -36,7 +36,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static float centre(const lbvh_box *b, int k)
+static float centre(const bvh_box *b, int k)
 {
     return 0.5f * (b->lo[k] + b->hi[k]);
 }
@@ -195,7 +195,7 @@ static void release(struct built *b)
 
 /* ---- what came out ------------------------------------------------------ */
 
-static void assert_holds(const lbvh_box *outer, const lbvh_box *inner)
+static void assert_holds(const bvh_box *outer, const bvh_box *inner)
 {
     for (int k = 0; k < 3; k++) {
         assert_true(outer->lo[k] <= inner->lo[k]);
@@ -203,40 +203,74 @@ static void assert_holds(const lbvh_box *outer, const lbvh_box *inner)
     }
 }
 
-/* A scene with the tree, an item in each leaf; its depth is the root's unless
- * leaves hold several. */
+/* Names the items below a leaf, in order; returns how many there are then. */
+static uint32_t list_items(const struct built *b, uint32_t id, uint32_t *name,
+                           uint32_t items)
+{
+    uint32_t stack[BVH_LEAF] = {id};
+    for (int held = 1; held > 0;) {
+        uint32_t at = stack[--held];
+        if (at < b->count) {
+            name[items++] = 1 + b->order[at];
+            continue;
+        }
+        assert_true(held + 2 <= BVH_LEAF);
+        stack[held++] = b->child[at - b->count][1];
+        stack[held++] = b->child[at - b->count][0];
+    }
+    return items;
+}
+
+/* The binary tree, and its items' names. */
+static struct bvh_binary binary_of(const struct built *b, uint32_t *name)
+{
+    size_t most = 2 * b->count;
+    struct bvh_binary tree = {calloc(most, sizeof *tree.part),
+                              calloc(most, sizeof *tree.box), 1};
+    uint32_t *id = malloc(most * sizeof *id), items = 0;
+    id[0] = b->root;
+    for (size_t i = 0; i < tree.count; i++) {
+        const lbvh_cluster *c = &b->cluster[id[i]];
+        wide_part *p = &tree.part[i];
+        tree.box[i] = c->box;
+        p->leaf = c->leaf;
+        p->items = c->items;
+        if (c->leaf) {
+            p->child[0] = items;
+            items = list_items(b, id[i], name, items);
+            assert_int_equal(items - p->child[0], c->items);
+            continue;
+        }
+        for (uint32_t k = 0; k < 2; k++) {
+            uint32_t child = b->child[id[i] - b->count][k];
+            assert_holds(&c->box, &b->cluster[child].box);
+            id[tree.count] = child;
+            p->child[k] = (uint32_t)tree.count++;
+        }
+    }
+    assert_int_equal(items, b->count);
+    free(id);
+    return tree;
+}
+
+/* A scene with the wide tree. */
 static struct flat *scene_of(const struct built *b)
 {
     struct brume_error err = {0};
     struct flat *f = tree_scene(b->mesh, TREE_NONE, 1, &err);
-    uint32_t stack[BVH_STACK][2] = {{b->root, 0}}, items = 0;
-    assert_non_null(FLAT_EXTEND(f, bvh, 1, &err));
+    uint32_t *name = malloc(b->count * sizeof *name);
+    struct bvh_binary tree = binary_of(b, name);
+    assert_true(bvh_collapse(f, &tree, BVH_STACK - 1, &err));
+    assert_in_range(bvh_room(f, 0), 0, BVH_STACK - 1);
+    assert_int_equal(tree.part[0].split, b->cluster[b->root].split);
+    assert_int_equal(tree.part[0].depth, b->cluster[b->root].depth);
     assert_non_null(FLAT_EXTEND(f, bvh_items, b->count, &err));
-    for (int held = 1; held > 0;) {
-        uint32_t id = stack[--held][0], at = stack[held][1];
-        const lbvh_cluster *c = &b->cluster[id];
-        memcpy(f->bvh[at].lo, c->box.lo, sizeof c->box.lo);
-        memcpy(f->bvh[at].hi, c->box.hi, sizeof c->box.hi);
-        if (id < b->count) {
-            f->bvh[at].first = items;
-            f->bvh[at].count = 1;
-            f->bvh_items[items++] = 1 + b->order[id];
-            continue;
-        }
-        uint32_t first = (uint32_t)f->bvh_count;
-        f->bvh[at].first = first;
-        assert_non_null(FLAT_EXTEND(f, bvh, 2, &err));
-        assert_true(held + 2 <= BVH_STACK);
-        for (uint32_t i = 0; i < 2; i++) {
-            uint32_t child = b->child[id - b->count][i];
-            assert_holds(&c->box, &b->cluster[child].box);
-            stack[held][0] = child;
-            stack[held++][1] = first + i;
-        }
-    }
-    assert_int_equal(items, b->count);
+    memcpy(f->bvh_items, name, b->count * sizeof *name);
     f->view.bvh_root = 0;
     flat_view(f);
+    free(name);
+    free(tree.part);
+    free(tree.box);
     return f;
 }
 
