@@ -239,7 +239,13 @@ static bool build(struct flat *flat, struct bvh_item *items, size_t count,
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err)
 {
-    const struct shape shape = {UINT64_MAX, BVH_STACK / 2 - 2, BVH_STACK / 2};
+    return bvh_build_within(flat, items, count, BVH_STACK - 1, err);
+}
+
+bool bvh_build_within(struct flat *flat, struct bvh_item *items, size_t count,
+                      int room, struct brume_error *err)
+{
+    const struct shape shape = {UINT64_MAX, BVH_STACK / 2 - 2, room};
     return build(flat, items, count, &shape, err);
 }
 

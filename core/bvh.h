@@ -21,11 +21,15 @@ void bvh_triangle(const struct flat *flat, uint64_t triangle,
 
 /* Adds a tree to flat->bvh and flat->bvh_items, whose root is the next node,
  * children behind their parents; reorders `items` and widens their bounds. A
- * search of it keeps BVH_STACK / 2 places at most, or as many as the binary
- * tree has levels, which are less than BVH_STACK. The tree is the same for the
+ * search of it keeps less than BVH_STACK places. The tree is the same for the
  * same items in the same order. */
 bool bvh_build(struct flat *flat, struct bvh_item *items, size_t count,
                struct brume_error *err);
+
+/* The same where a search keeps `room` places at most, or as many as the binary
+ * tree has levels, which are less than BVH_STACK. */
+bool bvh_build_within(struct flat *flat, struct bvh_item *items, size_t count,
+                      int room, struct brume_error *err);
 
 /* The same where items whose names are `from` or more stand for trees, and are
  * each alone in its leaf; a search keeps `room` places at most, 32 and more. */

@@ -54,7 +54,8 @@ static bool build(struct mesh_tree *tree)
         return false;
     for (size_t t = 0; t < m->triangles; t++)
         own_item(m, t, &box, &items[t]);
-    bool good = bvh_build(&tree->own, items, m->triangles, NULL);
+    bool good = bvh_build_within(&tree->own, items, m->triangles,
+                                 MESH_TREE_ROOM, NULL);
     free(items);
     tree->room = bvh_room(&tree->own, 0);
     return good;

@@ -4,6 +4,7 @@
 #ifndef CORE_MESH_TREE_H
 #define CORE_MESH_TREE_H
 #include "core/bvh.h"
+#include "core/physics/ray.h"
 #include "lib/mesh.h"
 
 struct mesh_tree {
@@ -16,6 +17,10 @@ struct mesh_tree {
 
 /* Meshes of fewer triangles are not worth one. */
 enum { MESH_TREE_WORTH = 1024 };
+
+/* Places that a search of one keeps, or it is not used: the others are for the
+ * tree that it is part of. */
+enum { MESH_TREE_ROOM = BVH_STACK / 2 };
 
 /* The tree of a mesh with these triangles, from the list or built and put
  * there. NULL: no memory. */

@@ -433,7 +433,6 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
     struct brume_still *still = job->still;
     struct flat *f = job->flat;
     size_t count = a->parts_count;
-    enum { MOST = BVH_STACK / 2 };
     trees->from = f->shapes_count + f->triangles_count;
     if (!still || job->tree != BRUME_TREE_BVH || job->exact || trees->later)
         return true;
@@ -447,7 +446,7 @@ static bool find_trees(const struct prepare *job, const struct assembly *a,
             f->shapes[i].triangles >= MESH_TREE_WORTH)
             tree = mesh_tree_of(&still->tree, a->parts[i].leaf.mesh,
                                 &still->tree_builds);
-        if (!tree || tree->room > MOST)
+        if (!tree || tree->room > MESH_TREE_ROOM)
             continue;
         still->tree_uses++;
         trees->of[i] = tree;
