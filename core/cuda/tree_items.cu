@@ -7,7 +7,7 @@ namespace
 const int block_size = 256, warp_size = 32;
 
 __device__ __forceinline__ bvh_box box_of(const tree_items *items, uint32_t i,
-                                           uint32_t *name)
+                                          uint32_t *name)
 {
     bvh_box box;
     if (i < items->shapes) {

@@ -368,8 +368,7 @@ template <typename type> type *take(device_arena *from, size_t count)
 size_t lay_out(build *b, device_arena *from, size_t sum_bytes, void **sums)
 {
     size_t parts = b->most.parts + 1, refs = b->most.refs + 1;
-    b->bounds = {take<bvh_box>(from, b->count),
-                 take<uint32_t>(from, b->count)};
+    b->bounds = {take<bvh_box>(from, b->count), take<uint32_t>(from, b->count)};
     b->extent = take<tree_extent>(from, 1);
     b->now = take<part>(from, parts);
     b->next = take<part>(from, parts);
