@@ -135,7 +135,7 @@ static double mean_around(const struct film *f, size_t at, int channel)
 /* What all rows have together, in their order whoever found them. */
 struct survey {
     const struct film *film;
-    double image;               /* mean of all pixels                      */
+    double image; /* mean of all pixels                      */
 };
 
 static double sum_rows(struct survey *s, parallel_body *body)

@@ -484,11 +484,11 @@ static void mix_brick(void *context, size_t index, int thread)
     memset(out, 0, size * sizeof *out);
     for (int j = 0; j < 2; j++)
         for (int k = 0; k < BRUME_MAX_TAPS; k++) {
-            const float *cells =
-                choose_blocks(w, j, k, weight)
-                    ? filter_again(&a->judge, k, j, (size_t)slot, corner,
-                                   &d->room)
-                    : NULL;
+            const float *cells = choose_blocks(w, j, k, weight)
+                                     ? filter_again(&a->judge, k, j,
+                                                    (size_t)slot, corner,
+                                                    &d->room)
+                                     : NULL;
             if (cells)
                 mix_frame(cells, f->numbers, weight, out);
         }

@@ -267,7 +267,7 @@ static bool judge_all(struct filter_judge *judge, bool moved, int threads,
 static bool keep_moved(struct filter_judge *judge,
                        struct filter_scratch *scratch, struct brume_error *err)
 {
-    enum { MOST = 1 << 25 };    /* of floats: 128 MiB                      */
+    enum { MOST = 1 << 25 }; /* of floats: 128 MiB                      */
     const struct flat *flat = judge->flat;
     size_t bricks = flat->radiance_count /
                     (FILTER_CELLS * (size_t)flat->view.field.numbers);

@@ -20,8 +20,9 @@ std::atomic<char *> *resident_spare(resident_set *set);
 /* Whether an array of so many bytes is worth it. */
 bool resident_is_worth(const resident_set *set, size_t bytes);
 
-/* A frame takes its arrays, which so many threads look through; at the end those go that neither it nor the one
- * before took. What was taken stays until the next frame begins. */
+/* A frame takes its arrays, which so many threads look through; at the end
+ * those go that neither it nor the one before took. What was taken stays until
+ * the next frame begins. */
 void resident_begin(resident_set *set, uploader *to, int threads);
 /* NULL with err set. */
 const void *resident_take(resident_set *set, const void *host, size_t bytes,

@@ -102,8 +102,7 @@ static void *loop_again(void *context)
 {
     for (int i = 0; i < 50; i++) {
         struct marks *m = clean(context);
-        if (!parallel_for(THREADS, MANY, mark, m, NULL) ||
-            !each_once(m, MANY))
+        if (!parallel_for(THREADS, MANY, mark, m, NULL) || !each_once(m, MANY))
             return context;
     }
     return NULL;
@@ -136,8 +135,7 @@ static void test_thread__after_a_fork(void **state)
     if (child == 0) {
         alarm(20);
         clean(&m);
-        _exit(parallel_for(THREADS, MANY, mark, &m, NULL) &&
-                      each_once(&m, MANY)
+        _exit(parallel_for(THREADS, MANY, mark, &m, NULL) && each_once(&m, MANY)
                   ? 0
                   : 1);
     }
