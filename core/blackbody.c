@@ -66,44 +66,82 @@ static const double cie[CIE_COUNT][3] = {
 /* clang-format on */
 
 /* B/T at s = 1/T, W/(m2 sr m K): analytic at s = 0, where it is the limit of
- * Rayleigh and Jeans, and beyond. */
-static double planck_over_t(double s, double wavelength)
+ * Rayleigh and Jeans; its slope goes to *slope. */
+static double planck_over_t(double s, double wavelength, double *slope)
 {
     const double c2 = planck * light_speed / boltzmann;
-    double x = c2 * s / wavelength;
-    double decay = x == 0 ? wavelength / c2 : s / expm1(x);
-    return 2 * planck * light_speed * light_speed * decay / pow(wavelength, 5);
+    double x = c2 * s / wavelength, grown = expm1(x);
+    double scale = 2 * planck * light_speed * light_speed /
+                   pow(wavelength, 5);
+    *slope = -0.5 * scale;
+    if (x == 0)
+        return scale * wavelength / c2;
+    /* s / (e^x - 1), of which the slope at 0 is -1/2. */
+    if (x > 1e-4)
+        *slope = scale * (1 - x * (1 + 1 / grown)) / grown;
+    return scale * s / grown;
 }
 
-static void xyz_over_t(double s, double xyz[3])
+static void xyz_over_t(double s, double xyz[3], double slope[3])
 {
-    xyz[0] = xyz[1] = xyz[2] = 0;
+    for (int k = 0; k < 3; k++)
+        xyz[k] = slope[k] = 0;
     for (int i = 0; i < CIE_COUNT; i++) {
-        double wavelength = (CIE_FIRST_NM + i * CIE_STEP_NM) * 1e-9;
-        double weight = lumens_per_watt * CIE_STEP_NM * 1e-9 *
-                        planck_over_t(s, wavelength);
-        for (int k = 0; k < 3; k++)
-            xyz[k] += weight * cie[i][k];
+        double wavelength = (CIE_FIRST_NM + i * CIE_STEP_NM) * 1e-9, d;
+        double value = planck_over_t(s, wavelength, &d);
+        for (int k = 0; k < 3; k++) {
+            double weight = lumens_per_watt * CIE_STEP_NM * 1e-9 * cie[i][k];
+            xyz[k] += weight * value;
+            slope[k] += weight * d;
+        }
     }
 }
 
 void blackbody_xyz(double kelvin, double xyz[3])
 {
-    xyz_over_t(1 / kelvin, xyz);
+    double slope[3];
+    xyz_over_t(1 / kelvin, xyz, slope);
     for (int k = 0; k < 3; k++)
         xyz[k] *= kelvin;
 }
 
+static void rec709(const double xyz[3], double scale, double out[3])
+{
+    static const double map[3][3] = {
+        {3.24096994, -1.53738318, -0.49861076},
+        {-0.96924364, 1.8759675, 0.04155506},
+        {0.05563008, -0.20397696, 1.05697151},
+    };
+    for (int k = 0; k < 3; k++)
+        out[k] = scale * (map[k][0] * xyz[0] + map[k][1] * xyz[1] +
+                          map[k][2] * xyz[2]);
+}
+
+/* The colour over T at node i, and its slope there for a step of one node. */
+static void fill_node(int i, double value[3], double slope[3])
+{
+    const double step = 1.0 / (BLACKBODY_LOWEST_KELVIN * BLACKBODY_PIECES);
+    double xyz[3], d[3];
+    xyz_over_t(i * step, xyz, d);
+    rec709(xyz, 1 / BLACKBODY_UNIT, value);
+    rec709(d, step / BLACKBODY_UNIT, slope);
+}
+
 void blackbody_fill(blackbody_table *t)
 {
-    const double step = 1 /
-                        (BLACKBODY_LOWEST_KELVIN * (BLACKBODY_ENTRIES - 1.0));
-    for (int i = 0; i < BLACKBODY_ENTRIES + 2; i++) {
-        double xyz[3];
-        xyz_over_t((i - 1) * step, xyz);
-        t->log_x[i] = (float)log(xyz[0] / BLACKBODY_UNIT);
-        t->log_y[i] = (float)log(xyz[1] / BLACKBODY_UNIT);
-        t->log_z[i] = (float)log(xyz[2] / BLACKBODY_UNIT);
+    double value[2][3], slope[2][3];
+    fill_node(0, value[0], slope[0]);
+    for (int i = 0; i < BLACKBODY_PIECES; i++) {
+        const double *a = value[i & 1], *b = value[~i & 1];
+        const double *da = slope[i & 1], *db = slope[~i & 1];
+        fill_node(i + 1, value[~i & 1], slope[~i & 1]);
+        for (int k = 0; k < 3; k++) {
+            double d = b[k] - a[k];
+            t->piece[i].rgb[0][k] = (float)a[k];
+            t->piece[i].rgb[1][k] = (float)da[k];
+            t->piece[i].rgb[2][k] = (float)(3 * d - 2 * da[k] - db[k]);
+            t->piece[i].rgb[3][k] = (float)(da[k] + db[k] - 2 * d);
+        }
     }
 }
 

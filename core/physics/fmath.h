@@ -57,16 +57,31 @@ HD float fm_scale(float x, int n)
     return x * a * b;
 }
 
-/* e^r - 1 for |r| <= ln(2)/2 */
-HD float fm_expm1_reduced(float r)
+/* (e^r - 1 - r) / r^2 for |r| <= ln(2)/2 */
+HD float fm_exp_rest(float r)
 {
     float q = 0.000197601912f;
     q = q * r + 0.00139323086f;
     q = q * r + 0.00833354797f;
     q = q * r + 0.0416664928f;
     q = q * r + 0.166666657f;
-    q = q * r + 0.5f;
-    return r + r * r * q;
+    return q * r + 0.5f;
+}
+
+/* e^r - 1 for |r| <= ln(2)/2 */
+HD float fm_expm1_reduced(float r)
+{
+    return r + r * r * fm_exp_rest(r);
+}
+
+/* fm_exp for |x| <= 87, whose results are normal: to the same bits. */
+HD float fm_exp_within(float x)
+{
+    const float shift = 12582912.0f;    /* its bits end in those of n */
+    float t = x * 1.44269502f + shift, n = t - shift;
+    float r = (x - n * FM_LN2_HI) - n * FM_LN2_LO;
+    return fm_from_bits(fm_bits(1.0f + fm_expm1_reduced(r)) +
+                        (fm_bits(t) << 23));
 }
 
 /* Error <= 1 ulp, denormal results included. */

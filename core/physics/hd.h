@@ -47,6 +47,16 @@
 #define HD_RETURN(p) ((void)0)
 #endif
 
+/* A loop that a GPU's code has once, however often it goes round. */
+#ifdef __CUDACC__
+#define HD_ROLLED _Pragma("unroll 1")
+#else
+#define HD_ROLLED
+#endif
+
+/* Of an address that is a multiple of n bytes. */
+#define HD_ALIGNED(n) __attribute__((aligned(n)))
+
 /* Like fminf and fmaxf, which are calls on a plain x86-64, but for NaN: the
  * second argument is returned if either is NaN. */
 HD float hd_min(float a, float b)

@@ -82,39 +82,10 @@ static double worst(const blackbody_table *t, double lo, double hi)
 
 static void test_blackbody__interpolation(void **state)
 {
-    assert_true(worst(*state, 500, 1000) < 6e-6);
-    assert_true(worst(*state, 1000, 3000) < 4e-6);
-    assert_true(worst(*state, 3000, 40000) < 1e-6);
-    assert_true(worst(*state, 40000, 1e12) < 1e-6);
-}
-
-/* The table's own error, without that of floats: by a cubic and a line through
- * its nodes' truths, in the log of Y, over s. */
-static void test_blackbody__interpolation_alone(void **state)
-{
-    (void)state;
-    const double step = 1 / (500.0 * (BLACKBODY_ENTRIES - 1));
-    double cubic = 0, linear = 0;
-    for (int i = 2; i < BLACKBODY_ENTRIES - 2; i++)
-        for (double f = 0.1; f < 1; f += 0.1) {
-            double a[4], c[3];
-            for (int k = 0; k < 4; k++) {
-                blackbody_xyz(1 / ((i + k - 1) * step), c);
-                a[k] = log(c[1] * (i + k - 1) * step);
-            }
-            blackbody_xyz(1 / ((i + f) * step), c);
-            double y = log(c[1] * (i + f) * step);
-            double m1 = (a[2] - a[0]) / 2, m2 = (a[3] - a[1]) / 2;
-            double d = a[2] - a[1];
-            cubic = fmax(cubic, fabs(a[1] +
-                                     f * (m1 + f * (3 * d - 2 * m1 - m2 +
-                                                    f * (m1 + m2 - 2 * d))) -
-                                     y));
-            linear = fmax(linear, fabs(a[1] + f * d - y));
-        }
-    print_message("log Y: cubic %.1e, linear %.1e\n", cubic, linear);
-    assert_true(cubic < 5e-7);
-    assert_true(linear < 1.7e-4 && linear > 1e-4);
+    assert_true(worst(*state, 500, 1000) < 2e-6);
+    assert_true(worst(*state, 1000, 3000) < 1e-6);
+    assert_true(worst(*state, 3000, 40000) < 6e-7);
+    assert_true(worst(*state, 40000, 1e12) < 6e-7);
 }
 
 static bool is_black(const blackbody_table *t, float kelvin)
@@ -151,7 +122,6 @@ int main(void)
         cmocka_unit_test(test_blackbody__chromaticity),
         cmocka_unit_test(test_blackbody__rec709),
         cmocka_unit_test(test_blackbody__interpolation),
-        cmocka_unit_test(test_blackbody__interpolation_alone),
         cmocka_unit_test(test_blackbody__ends),
         cmocka_unit_test(test_blackbody__grows),
     };
