@@ -60,7 +60,8 @@ bool plan_leaves_tree(const struct flat *flat, enum brume_tree tree)
            flat->shapes_count + flat->triangles_count >= WORTH_LEAVING;
 }
 
-/* Whether a point may lie in several media, or shapes with media. */
+/* Whether a point may lie in several media, or shapes with media, or there are
+ * several at all: of one a GPU has the records as constants. */
 static bool has_many(const struct flat *f)
 {
     int shapes = 0, media = 0, atmosphere = 0;
@@ -76,7 +77,7 @@ static bool has_many(const struct flat *f)
     for (size_t i = 0; i < f->media_count; i++)
         if (f->media[i].planes > 1)
             return true;
-    return shapes > 1 || media + atmosphere > 1;
+    return shapes > 1 || media + atmosphere > 1 || f->media_count > 1;
 }
 
 static bool has_clear(const struct flat *f)

@@ -92,13 +92,13 @@ static float twin_heat(const struct glow_job *job, const twin_point *x)
         much.b = density.b.r;
     }
     if (m->amount >= 0 && (much.a != 0.0f || much.b != 0.0f)) {
-        twin_float amount = twin_eval(s, m->amount, x);
+        twin_float amount = twin_eval(s, scene_amount(s, m), x);
         much.a *= amount.a;
         much.b *= amount.b;
     }
     if (much.a == 0.0f && much.b == 0.0f)
         return 0.0f;
-    hot = twin_eval(s, m->temperature, x);
+    hot = twin_eval(s, scene_temperature(s, m), x);
     return much.a * heat_weight(job, hot.a) + much.b * heat_weight(job, hot.b);
 }
 

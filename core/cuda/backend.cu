@@ -19,6 +19,9 @@ const size_t most_paths = 1u << 21;
 const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
                                        &sample_all};
 
+const lines_stage *const line_kernels[] = {&lines_media, &lines_fire,
+                                           &lines_lit, &lines_all};
+
 const photon_stage *const photon_kernels[] = {
     &photons_media, &photons_colors, &photons_lit, &photons_fire, &photons_all};
 
@@ -133,12 +136,38 @@ const void *upload_array(cuda_state *s, const void *from, size_t bytes,
     return good ? to : nullptr;
 }
 
+sole_field describe_field(const flat_scene *from, int field)
+{
+    sole_field out = {};
+    if (field < 0)
+        return out;
+    out.field = from->fields[field];
+    if (out.field.kind == FIELD_GRID)
+        out.grid = from->grids[out.field.grid];
+    return out;
+}
+
+/* The records of the only medium, if there is one. */
+void describe_sole(const flat_scene *from, sole_medium *to)
+{
+    if (from->media_count != 1)
+        return;
+    const flat_medium *m = from->media;
+    to->medium = *m;
+    to->lead = describe_field(from, m->lead);
+    for (int i = 0; i < m->densities; i++)
+        to->density[i] = describe_field(from, m->density[i]);
+    to->temperature = describe_field(from, m->fire ? m->temperature : -1);
+    to->amount = describe_field(from, m->fire ? m->amount : -1);
+}
+
 /* Copies every array of the scene and points the device's view at them. */
 bool upload(cuda_state *s, brume_error *err)
 {
     const flat_scene *from = &s->frame.flat->view;
     bool good = true;
     s->job.scene = *from;
+    describe_sole(from, &s->job.scene.sole);
     resident_begin(s->kept, &s->to, s->frame.options->threads);
     device_clock_mark(&s->clock, 0);
 #define X(type, name)                                                          \
@@ -243,7 +272,7 @@ bool sample_warm(cuda_state *s, brume_error *err)
     sample_job none = s->job;
     none.x1 = none.x0;
     none.samples = 1;
-    s->stage->lines(&none);
+    s->liner->lines(&none);
     if (s->job.pixels.path)
         s->stage->paths(&none);
     return device_check(cudaDeviceSynchronize(), "opening", err);
@@ -261,6 +290,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs);
+    s->liner = choose(line_kernels, frame->stages->needs & ~LINES_IGNORE);
     s->photons = choose(photon_kernels, frame->stages->needs & ~PHOTONS_IGNORE);
     s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
     describe_job(&s->job, frame);
@@ -314,7 +344,7 @@ bool sample_some(cuda_state *s, brume_error *err)
 {
     bool path = s->job.pixels.path != 0;
     device_clock_mark(&s->clock, 0);
-    s->stage->lines(&s->job);
+    s->liner->lines(&s->job);
     device_clock_mark(&s->clock, 1);
     if (path)
         launch_paths(s);

@@ -16,6 +16,7 @@ struct cuda_state {
     struct resident_set *kept;  /* beside it, or NULL                      */
     sample_job job;             /* its scene's pointers are the device's   */
     const sample_stage *stage;
+    const lines_stage *liner;
     const photon_stage *photons;
     const photon_stage *tracer;     /* of photons that are born            */
     float *cells;               /* of the field                            */

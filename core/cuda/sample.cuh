@@ -1,5 +1,6 @@
 /* sample.cuh - the path stage: what its kernels are given, and which there
- * are. Each sample_NAME.cu is the same kernel for other scenes. */
+ * are. Each lines_NAME.cu and sample_NAME.cu is the same kernel for other
+ * scenes. */
 #ifndef CORE_CUDA_SAMPLE_CUH
 #define CORE_CUDA_SAMPLE_CUH
 #include "core/cuda/device.cuh"
@@ -38,9 +39,18 @@ struct sample_job {
 struct sample_stage {
     int may;                /* MAY_* of the scenes that it can do          */
     size_t bent_bytes;      /* of a path in the list                       */
-    void (*lines)(const sample_job *job);
     void (*paths)(const sample_job *job);
 };
+
+struct lines_stage {
+    int may;                /* as of sample_stage                          */
+    void (*lines)(const sample_job *job);
+};
+
+/* What the lines of a scene are the same with and without. */
+const int LINES_IGNORE = MAY_LAMPS | MAY_CLEAR;
+
+extern const lines_stage lines_media, lines_fire, lines_lit, lines_all;
 
 extern const sample_stage sample_media, sample_lit, sample_fire, sample_all;
 #endif

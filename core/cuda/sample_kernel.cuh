@@ -1,20 +1,15 @@
-/* sample_kernel.cuh - the kernels of the path stage. A thread takes a pixel and
- * runs its lines in order. Paths are taken by a thread each, and leave their
- * light in a list, which is added up in order at last: so a picture is the same
- * from run to run. SAMPLE_STAGE names what is defined here, SCENE_MAY what it
- * can do. */
+/* sample_kernel.cuh - the kernels of the path stage. Paths are taken by a
+ * thread each, and leave their light in a list, which is added up in order at
+ * last: so a picture is the same from run to run. SAMPLE_STAGE names what is
+ * defined here, SCENE_MAY what it can do. */
 #include "core/cuda/count.cuh"
+#include "core/cuda/tile.cuh"
 
 namespace
 {
 
-const int block_width = 8, block_height = 4; /* a warp a tile */
-const int block_size = block_width * block_height;
-/* Blocks that a multiprocessor must have room for: 128 registers a thread. */
-#ifndef LINES_BLOCKS
-#define LINES_BLOCKS 16
-#endif
-const int blocks_at_once = 16;
+/* Tiles that a multiprocessor must have room for: 128 registers a thread. */
+const int tiles_at_once = 16;
 
 /* Tiles of a block of paths, one below the other. */
 const int path_tiles = 8;
@@ -30,53 +25,10 @@ struct bent_path {
     unsigned result;
 };
 
-/* The pixel of a thread; false: it has none. */
-__device__ __forceinline__ bool find_pixel(const sample_job *job, int *x,
-                                           int *y, size_t *at)
-{
-    int tiles = static_cast<int>(blockDim.x) / block_size;
-    int i = static_cast<int>(threadIdx.x);
-    *x = job->x0 + static_cast<int>(blockIdx.x) * block_width +
-         i % block_width;
-    *y = job->y0 + static_cast<int>(blockIdx.y) * tiles * block_height +
-         i / block_width;
-    *at = static_cast<size_t>(*y - job->y0) *
-              static_cast<size_t>(job->x1 - job->x0) +
-          static_cast<size_t>(*x - job->x0);
-    return *x < job->x1 && *y < job->y1;
-}
-
 __host__ __device__ inline unsigned find_pixels(const sample_job *job)
 {
     return static_cast<unsigned>(job->x1 - job->x0) *
            static_cast<unsigned>(job->y1 - job->y0);
-}
-
-/* Threads of a warp meet at the end of a segment: while they go along it, each
- * step is taken by all that are not there yet. */
-__global__ void __launch_bounds__(block_size, LINES_BLOCKS)
-sample_lines(const __grid_constant__ sample_job job)
-{
-    const flat_scene *s = &job.scene;
-    int x, y;
-    size_t at;
-    bool is = find_pixel(&job, &x, &y, &at);
-    track_counters count = {};
-    pixel_liner l;
-    pixel_lines_begin(&l, x, y, job.first, job.samples);
-    if (!is)
-        l.next = PIXEL_ENDS;
-    while (__any_sync(~0u, l.next != PIXEL_ENDS)) {
-        if (l.next == PIXEL_LANDS)
-            pixel_land(s, &l, &job.pixel[at], &count);
-        if (l.next == PIXEL_TAKES)
-            pixel_take(s, &job.pixels, &l);
-        if (l.next == PIXEL_SEEKS)
-            pixel_seek(s, &l);
-        while (l.next == PIXEL_STEPS)
-            pixel_step(s, &l);
-    }
-    count_add(job.count, &count);
 }
 
 __device__ __forceinline__ bent_path *bent_paths(const sample_job *job)
@@ -137,7 +89,7 @@ __device__ __forceinline__ unsigned find_sample(const sample_job *job, int x,
  * warps of a block go from segment to segment together, so that they share the
  * instructions that are fetched. */
 __global__ void __launch_bounds__(block_size *path_tiles,
-                                  blocks_at_once / path_tiles)
+                                  tiles_at_once / path_tiles)
 sample_paths(const __grid_constant__ sample_job job)
 {
     int x, y;
@@ -172,7 +124,7 @@ sample_paths(const __grid_constant__ sample_job job)
 
 /* What has left them, taken from the list by threads that stay. */
 __global__ void __launch_bounds__(block_size *path_tiles,
-                                  blocks_at_once / path_tiles)
+                                  tiles_at_once / path_tiles)
 sample_bent(const __grid_constant__ sample_job job)
 {
     unsigned result = 0, n = job.queue->listed;
@@ -214,31 +166,13 @@ add_paths(const __grid_constant__ sample_job job)
     count_add(job.count, &count);
 }
 
-/* As many parts of that size as there must be, but one at least. */
-unsigned parts_of(int whole, int size)
-{
-    return whole > size ? static_cast<unsigned>((whole + size - 1) / size) : 1u;
-}
-
-/* Blocks of so many tiles. */
-dim3 find_blocks(const sample_job *job, int tiles, unsigned deep)
-{
-    return dim3(parts_of(job->x1 - job->x0, block_width),
-                parts_of(job->y1 - job->y0, block_height * tiles), deep);
-}
-
-void lines(const sample_job *job)
-{
-    sample_lines<<<find_blocks(job, 1, 1), block_size>>>(*job);
-}
-
 /* A list is worth it where there are many paths: of one sample those that leave
  * the eye's line would begin when all others have ended. */
 void paths(const sample_job *job)
 {
     const int threads = block_size * path_tiles;
     const unsigned blocks = static_cast<unsigned>(job->processors) *
-                            (blocks_at_once / path_tiles);
+                            (tiles_at_once / path_tiles);
     sample_job j = *job;
     if (j.samples == 1)
         j.bent = nullptr;
@@ -252,4 +186,4 @@ void paths(const sample_job *job)
 
 }
 
-const sample_stage SAMPLE_STAGE = {SCENE_MAY, sizeof(bent_path), lines, paths};
+const sample_stage SAMPLE_STAGE = {SCENE_MAY, sizeof(bent_path), paths};

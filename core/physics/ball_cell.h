@@ -42,7 +42,7 @@ HD vec3 ball_offset(int k)
 
 HD void ball_add(const flat_scene *s, ball_media *b, int32_t medium, vec3 x)
 {
-    const flat_medium *m = &s->media[medium];
+    const flat_medium *m = scene_medium(s, medium);
     int i = 0;
     while (i < part_bound(b->count) && b->medium[part_place(i)] != medium)
         i++;
@@ -53,7 +53,7 @@ HD void ball_add(const flat_scene *s, ball_media *b, int32_t medium, vec3 x)
         b->density[part_place(i)] = rgb_gray(0.0f);
         b->count = i + 1;
     }
-    field_point at = field_point_make(s, m->lead, x);
+    field_point at = medium_point(s, m, x);
     rgb *sum = &b->density[part_place(i)];
     *sum = rgb_add(*sum, medium_density(s, m, &at));
 }
@@ -75,8 +75,9 @@ HD float ball_thickness(const flat_scene *s, const ball_media *b)
 {
     float sum = 0.0f;
     for (int i = 0; i < part_bound(b->count); i++)
-        sum += radiance_thickness(&s->media[b->medium[part_place(i)]],
-                                  b->density[part_place(i)]);
+        sum += radiance_thickness(
+            scene_medium(s, b->medium[part_place(i)]),
+            b->density[part_place(i)]);
     return sum;
 }
 
@@ -120,7 +121,7 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
     if (!(b->thickness > 0.0f))
         return sum;
     for (int i = 0; i < part_bound(b->count); i++) {
-        const flat_medium *m = &s->media[b->medium[part_place(i)]];
+        const flat_medium *m = scene_medium(s, b->medium[part_place(i)]);
         rgb sigma = rgb_mul(m->sigma_s, b->density[part_place(i)]);
         float phase = phase_eval_between(m->phase, m->g, d, wi) *
                       phase_pov_scale(m->phase);
@@ -138,7 +139,7 @@ HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x)
                ball_glow(s, &s->glows[i], x, s->field.radius);
     field_point at = field_point_make(s, -1, x);
     for (int i = 0; i < part_bound(b->count); i++) {
-        const flat_medium *m = &s->media[b->medium[part_place(i)]];
+        const flat_medium *m = scene_medium(s, b->medium[part_place(i)]);
         if (m->uniform && m->emits)
             sum += 4.0f * FM_PI *
                    rgb_mean(medium_source(s, m, &at,

@@ -12,17 +12,29 @@ typedef struct {
     int32_t lattice;        /* whose index space; -1: none                 */
 } field_point;
 
-/* `lead` is a field with an index space, or -1. */
-HD field_point field_point_make(const flat_scene *s, int32_t lead, vec3 p)
+/* In the index space of the field `lead`; NULL: in none. */
+HD field_point field_point_of(const flat_field *lead, vec3 p)
 {
     field_point x;
     x.p = x.index = p;
     x.lattice = -1;
-    if (lead >= 0) {
-        x.index = affine_point(&s->fields[lead].to_index, p);
-        x.lattice = s->fields[lead].lattice;
+    if (lead) {
+        x.index = affine_point(&lead->to_index, p);
+        x.lattice = lead->lattice;
     }
     return x;
+}
+
+/* `lead` is a field with an index space, or -1. */
+HD field_point field_point_make(const flat_scene *s, int32_t lead, vec3 p)
+{
+    return field_point_of(lead >= 0 ? &s->fields[lead] : 0, p);
+}
+
+/* In that of a medium's lead. */
+HD field_point medium_point(const flat_scene *s, const flat_medium *m, vec3 p)
+{
+    return field_point_of(m->lead >= 0 ? scene_lead(s, m) : 0, p);
 }
 
 HD vec3 field_index(const flat_field *f, const field_point *x)
@@ -67,7 +79,7 @@ HD float field_plain(const flat_scene *s, const flat_field *f,
 {
     if (f->kind == FIELD_CONSTANT)
         return f->scale;
-    return f->scale * grid_lookup(s, &s->grids[f->grid], field_index(f, x));
+    return f->scale * grid_lookup(s, scene_grid(s, f), field_index(f, x));
 }
 
 HD rgb field_color(const flat_scene *s, const flat_field *f,
@@ -84,9 +96,9 @@ HD rgb field_color(const flat_scene *s, const flat_field *f,
 }
 
 /* Value of a field that is no colour. */
-HD float field_eval(const flat_scene *s, int field, const field_point *x)
+HD float field_eval(const flat_scene *s, const flat_field *f,
+                    const field_point *x)
 {
-    const flat_field *f = &s->fields[field];
     return field_is_function(f) ? field_color(s, f, x).r
                                  : field_plain(s, f, x);
 }

@@ -143,8 +143,10 @@ HD glow_sample glow_choose_at(const flat_scene *s, double u, rng *r)
 HD float glow_ray_share(const flat_scene *s, int medium, vec3 p, float t,
                         float p_dir)
 {
-    const flat_medium *m = &s->media[medium];
-    if (p_dir == 0.0f || m->glow < 0)
+    if (p_dir == 0.0f)
+        return 1.0f;
+    const flat_medium *m = scene_medium(s, medium);
+    if (m->glow < 0)
         return 1.0f;
     float chosen = glow_pdf(s, &s->glows[m->glow], p) * t * t;
     /* A ratio, so that the peak of a phase function cannot overflow. */

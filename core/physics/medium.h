@@ -15,7 +15,7 @@ HD rgb medium_density(const flat_scene *s, const flat_medium *m,
     float d = 1.0f;
     rgb c = rgb_gray(1.0f);
     for (int i = 0; i < m->densities && d != 0.0f; i++) {
-        const flat_field *f = &s->fields[m->density[i]];
+        const flat_field *f = scene_density(s, m, i);
         if (field_is_function(f))
             c = rgb_mul(c, field_color(s, f, x));
         else
@@ -72,11 +72,11 @@ HD rgb fire_source(const flat_scene *s, const flat_medium *m,
 {
     if (!m->additive && rgb_is_black(density))
         return rgb_gray(0.0f);
-    float amount = m->amount >= 0 ? field_eval(s, m->amount, x) : 1.0f;
+    float amount = m->amount >= 0 ? field_eval(s, scene_amount(s, m), x) : 1.0f;
     if (amount == 0.0f)
         return rgb_gray(0.0f);
     return fire_light(s, m, density, amount,
-                      field_eval(s, m->temperature, x));
+                      field_eval(s, scene_temperature(s, m), x));
 }
 
 /* Radiance per length that the medium emits at x, where its density is

@@ -110,6 +110,19 @@ typedef struct {
     float kappa;            /* MIS constant of emission, per length        */
 } flat_medium;
 
+/* The medium of a scene without MAY_MANY, with the fields that it reads and
+ * their grids: where they lie among the constants of a launch, a GPU computes
+ * with them as they are, and loads nothing. */
+typedef struct {
+    flat_field field;       /* the first: its grid is found by it          */
+    flat_grid grid;
+} sole_field;
+
+typedef struct {
+    flat_medium medium;
+    sole_field lead, density[MAX_DENSITIES], temperature, amount;
+} sole_medium;
+
 /* The voxels of an emitting medium as a light: a discrete distribution over
  * cells of index space of one grid-like lattice, brick by brick. */
 typedef struct {
@@ -266,9 +279,10 @@ typedef struct {
     float far;              /* none farther along the view; or infinite    */
     int32_t straight;       /* 1: only the eye's straight lines read it    */
     int32_t single;         /* 1: light straight from lights is in it      */
-    int32_t lit;            /* place of light straight from lights that goes
-                               on to the eye, of which paths seek the rest
-                               along its rays; 0: they seek all            */
+    int32_t lit;            /* place of all light that goes on to the eye,
+                               that straight from lights too, of which paths
+                               seek the rest along its rays; 0: they seek
+                               all                                         */
     int32_t births;         /* place of how many of the media's emission
                                photons were born for each that should have
                                been; 0: it is not asked for                */
@@ -370,8 +384,56 @@ typedef struct {
     int32_t kd_stack;       /* entries of the ring that kd_search keeps    */
     bvh_box kd_box;         /* what the kd-tree is in                      */
     const void *host_grids; /* of queries: the scene's (machine.h)         */
+    sole_medium sole;       /* on a device, see scene_medium               */
     float unit;             /* unit-space lengths per scene unit           */
     float far;              /* where rays end                              */
 } flat_scene;
+
+/* Whether the medium's records are read from `sole`. */
+#ifdef __CUDACC__
+#define SCENE_SOLE (!(SCENE_MAY & (MAY_MANY | MAY_FUNCTIONS)))
+#else
+#define SCENE_SOLE 0
+#endif
+
+HD const flat_medium *scene_medium(const flat_scene *s, int i)
+{
+    return SCENE_SOLE ? &s->sole.medium : &s->media[i];
+}
+
+/* Fields of a medium: `sole` is the one, of the sole medium. */
+HD const flat_field *scene_field(const flat_scene *s, int i,
+                                 const sole_field *sole)
+{
+    return SCENE_SOLE ? &sole->field : &s->fields[i];
+}
+
+HD const flat_field *scene_lead(const flat_scene *s, const flat_medium *m)
+{
+    return scene_field(s, m->lead, &s->sole.lead);
+}
+
+HD const flat_field *scene_density(const flat_scene *s, const flat_medium *m,
+                                   int i)
+{
+    return scene_field(s, m->density[i], &s->sole.density[i]);
+}
+
+HD const flat_field *scene_temperature(const flat_scene *s,
+                                       const flat_medium *m)
+{
+    return scene_field(s, m->temperature, &s->sole.temperature);
+}
+
+HD const flat_field *scene_amount(const flat_scene *s, const flat_medium *m)
+{
+    return scene_field(s, m->amount, &s->sole.amount);
+}
+
+/* The grid of a field that these gave. */
+HD const flat_grid *scene_grid(const flat_scene *s, const flat_field *f)
+{
+    return SCENE_SOLE ? &((const sole_field *)f)->grid : &s->grids[f->grid];
+}
 
 #endif

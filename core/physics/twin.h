@@ -61,7 +61,7 @@ HD twin_float twin_plain(const flat_scene *s, const flat_field *f,
     out.a = out.b = f->scale;
     if (f->kind == FIELD_CONSTANT)
         return out;
-    out = twin_grid(s, &s->grids[f->grid], field_index(f, &x->a),
+    out = twin_grid(s, scene_grid(s, f), field_index(f, &x->a),
                     field_index(f, &x->b));
     out.a *= f->scale;
     out.b *= f->scale;
@@ -69,9 +69,9 @@ HD twin_float twin_plain(const flat_scene *s, const flat_field *f,
 }
 
 /* As field_eval. */
-HD twin_float twin_eval(const flat_scene *s, int field, const twin_point *x)
+HD twin_float twin_eval(const flat_scene *s, const flat_field *f,
+                        const twin_point *x)
 {
-    const flat_field *f = &s->fields[field];
     twin_float out;
     if (!field_is_function(f))
         return twin_plain(s, f, x);
@@ -93,7 +93,7 @@ HD twin_rgb twin_density(const flat_scene *s, const flat_medium *m,
         return out;
     }
     for (int i = 0; i < m->densities && (d.a != 0.0f || d.b != 0.0f); i++) {
-        twin_float f = twin_plain(s, &s->fields[m->density[i]], x);
+        twin_float f = twin_plain(s, scene_density(s, m, i), x);
         d.a *= f.a;
         d.b *= f.b;
     }
@@ -115,10 +115,10 @@ HD twin_rgb twin_source(const flat_scene *s, const flat_medium *m,
         return out;
     amount.a = amount.b = 1.0f;
     if (m->amount >= 0)
-        amount = twin_eval(s, m->amount, x);
+        amount = twin_eval(s, scene_amount(s, m), x);
     if (amount.a == 0.0f && amount.b == 0.0f)
         return out;
-    kelvin = twin_eval(s, m->temperature, x);
+    kelvin = twin_eval(s, scene_temperature(s, m), x);
     out.a = rgb_add(out.a, fire_light(s, m, density->a, amount.a, kelvin.a));
     out.b = rgb_add(out.b, fire_light(s, m, density->b, amount.b, kelvin.b));
     return out;

@@ -81,7 +81,7 @@ HD const lattice_walk *walk_part(const media_walk *w, int i)
 HD const flat_medium *walk_medium(const flat_scene *s, const media_walk *w,
                                   int i)
 {
-    return &s->media[walk_part(w, i)->medium];
+    return scene_medium(s, walk_part(w, i)->medium);
 }
 
 /* 1 / d; 0 where the ray crosses no plane of the axis. */
@@ -124,7 +124,7 @@ HD float lattice_next(const lattice_walk *w)
 
 HD void lattice_load(const flat_scene *s, lattice_walk *w)
 {
-    const flat_medium *m = &s->media[w->medium];
+    const flat_medium *m = scene_medium(s, w->medium);
     uint64_t i = (uint64_t)w->cell[0] +
         (uint64_t)m->cells[0] * ((uint64_t)w->cell[1] +
                                  (uint64_t)m->cells[1] * (uint64_t)w->cell[2]);
@@ -134,14 +134,14 @@ HD void lattice_load(const flat_scene *s, lattice_walk *w)
 HD void lattice_outside(const flat_scene *s, lattice_walk *w, float t_end)
 {
     w->inside = 0;
-    w->bound = s->media[w->medium].outside;
+    w->bound = scene_medium(s, w->medium)->outside;
     w->t_end = t_end;
 }
 
 /* Starts the cell that contains distance t. */
 HD void lattice_enter(const flat_scene *s, lattice_walk *w, float t)
 {
-    const flat_medium *m = &s->media[w->medium];
+    const flat_medium *m = scene_medium(s, w->medium);
     w->inside = 1;
     for (int axis = 0; axis < 3; axis++) {
         float x = vec3_get(w->o, axis) + t * vec3_get(w->d, axis);
@@ -179,7 +179,7 @@ HD void lattice_clip(const flat_medium *m, lattice_walk *w)
 HD void lattice_begin(const flat_scene *s, lattice_walk *w, int medium,
                       vec3 o, vec3 d, float t)
 {
-    const flat_medium *m = &s->media[medium];
+    const flat_medium *m = scene_medium(s, medium);
     w->medium = medium;
     if (m->uniform) {
         lattice_outside(s, w, INFINITY);
@@ -217,7 +217,7 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
         lattice_outside(s, w, INFINITY);
         return;
     }
-    if (!lattice_cross(w, s->media[w->medium].cells)) {
+    if (!lattice_cross(w, scene_medium(s, w->medium)->cells)) {
         lattice_outside(s, w, INFINITY);
         return;
     }
@@ -235,9 +235,9 @@ HD float lattice_clamp(float x, int32_t cell)
 HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
                              vec3 p, float t)
 {
-    const flat_medium *m = &s->media[w->medium];
+    const flat_medium *m = scene_medium(s, w->medium);
     if (!w->inside)
-        return field_point_make(s, m->lead, p);
+        return medium_point(s, m, p);
     vec3 q = vec3_mad(w->o, t, w->d);
     field_point x;
     x.p = p;
@@ -245,7 +245,7 @@ HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
     x.index = vec3_make(side * lattice_clamp(q.x, w->cell[0]) + m->origin[0],
                         side * lattice_clamp(q.y, w->cell[1]) + m->origin[1],
                         side * lattice_clamp(q.z, w->cell[2]) + m->origin[2]);
-    x.lattice = s->fields[m->lead].lattice;
+    x.lattice = scene_lead(s, m)->lattice;
     return x;
 }
 

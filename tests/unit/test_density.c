@@ -147,7 +147,7 @@ static double compare(brume_scene *s, const struct flat *f, int function)
         matrix_point(&f->to_unit, p, q);
         vec3 at = vec3_make((float)q[0], (float)q[1], (float)q[2]);
         field_point x = field_point_make(v, m->lead, at);
-        float density = field_eval(v, m->density[0], &x);
+        float density = field_eval(v, &v->fields[m->density[0]], &x);
         if (!(density <= majorant_at(v, m, at)))
             fail_msg("density %g above %g", (double)density,
                      (double)majorant_at(v, m, at));
@@ -209,7 +209,7 @@ static void test_placed(void **state)
         field_point x = field_point_make(
             &f->view, f->view.media[0].lead,
             vec3_make((float)q[0], (float)q[1], (float)q[2]));
-        double got = (double)field_eval(&f->view, 0, &x);
+        double got = (double)field_eval(&f->view, f->view.fields, &x);
         assert_true(fabs(got - 3 * p[2] / 2) < 1e-5);
     }
     flat_free(f);
@@ -270,7 +270,7 @@ static void test_unbounded(void **state)
     assert_int_equal(warned.beyond, 1);
     field_point x = field_point_make(&f->view, f->view.media[0].lead,
                                      vec3_make(900, 900, 900));
-    assert_true(fabsf(field_eval(&f->view, 0, &x) - 2) < 1e-5f);
+    assert_true(fabsf(field_eval(&f->view, f->view.fields, &x) - 2) < 1e-5f);
     flat_free(f);
     brume_scene_free(s);
 }
