@@ -51,11 +51,10 @@ typedef struct {
 /* A voxel lattice along the ray. */
 typedef struct {
     vec3 o, d, inverse;
-    vec3 next;              /* distances of the next plane of each axis    */
+    vec3 plane, next;       /* each axis' next plane, and its distance     */
 } line_lattice;
 
 typedef struct {
-    const flat_scene *s;
     vec3 o, d;
     float p_dir;            /* see glow_ray_share                          */
     bool emission;          /* the radiance is wanted                      */
@@ -64,6 +63,7 @@ typedef struct {
     float rate;             /* ... and takes so many samples per length    */
     line_jitter jitter;     /* places of the next samples                  */
     int lattices;
+    bool cells;             /* one of them is the field's                  */
     line_lattice lattice[LINE_LATTICES];
 } line_job;
 
@@ -75,6 +75,7 @@ typedef struct {
 HD void line_no_lattice(line_lattice *l)
 {
     l->o = l->d = l->inverse = vec3_make(0.0f, 0.0f, 0.0f);
+    l->plane = l->o;
     l->next = vec3_make(INFINITY, INFINITY, INFINITY);
 }
 
@@ -86,16 +87,18 @@ HD void line_add_lattice(line_job *job, int place, vec3 o, vec3 d)
     l->o = o;
     l->d = d;
     l->inverse = vec3_make(1.0f / d.x, 1.0f / d.y, 1.0f / d.z);
+    l->plane = vec3_make(NAN, NAN, NAN);
     l->next = vec3_make(-INFINITY, -INFINITY, -INFINITY);
 }
 
-HD void line_add_lattices(line_job *job, const flat_medium *m)
+HD void line_add_lattices(const flat_scene *s, line_job *job,
+                          const flat_medium *m)
 {
     int room = scene_may(MAY_MANY) ? LINE_LATTICES - 1 - job->lattices : 1;
     int planes = part_bound(m->planes);
     for (int i = 0; i < planes && i < room; i++) {
-        const flat_field *f = &job->s->fields[m->plane_field[i]];
-        float shift = job->s->grids[f->grid].nearest ? 0.5f : 0.0f;
+        const flat_field *f = &s->fields[m->plane_field[i]];
+        float shift = s->grids[f->grid].nearest ? 0.5f : 0.0f;
         line_add_lattice(job, 0,
                          vec3_add(affine_point(&f->to_index, job->o),
                                   vec3_make(shift, shift, shift)),
@@ -105,19 +108,20 @@ HD void line_add_lattices(line_job *job, const flat_medium *m)
 
 /* The light of the field is read between planes of the media's voxels, but once
  * a cell at least: where voxels are larger, at planes of cells too. */
-HD void line_add_field(line_job *job, const flat_medium *m)
+HD void line_add_field(const flat_scene *s, line_job *job, const flat_medium *m)
 {
     const float enough = 0.8f;
-    const radiance_lattice *f = &job->s->field;
+    const radiance_lattice *f = &s->field;
     vec3 o = vec3_sub(job->o, vec3_make(f->origin[0], f->origin[1],
                                         f->origin[2]));
     vec3 d = vec3_scale(job->d, 1.0f / f->side);
     if (m && m->planes > 0) {
-        const affine *a = &job->s->fields[m->plane_field[0]].to_index;
+        const affine *a = &s->fields[m->plane_field[0]].to_index;
         if (vec3_length(affine_vector(a, job->d)) >= enough * vec3_length(d))
             return;
     }
     line_add_lattice(job, LINE_LATTICES - 1, vec3_scale(o, 1.0f / f->side), d);
+    job->cells = true;
 }
 
 HD int line_lattices(const line_job *job)
@@ -125,18 +129,39 @@ HD int line_lattices(const line_job *job)
     return scene_may(MAY_MANY) ? job->lattices : (int)LINE_LATTICES;
 }
 
-/* Distance of the first plane of one axis beyond t; none beyond 2^30 voxels
- * from the grid's origin, where the spacing of floats is over 64 voxels. */
-HD float line_plane(float o, float d, float inverse, float t)
+/* The first plane of one axis beyond t, and its distance; none beyond 2^30
+ * voxels from the grid's origin, where the spacing of floats is over 64
+ * voxels. */
+HD void line_plane(float o, float d, float inverse, float t, float *plane,
+                   float *next)
 {
-    float x = o + t * d;
+    float x = o + t * d, step = inverse > 0.0f ? 1.0f : -1.0f;
+    *next = INFINITY;
     if (d == 0.0f || !(fabsf(x) < 1073741824.0f))
-        return INFINITY;
+        return;
     int at = hd_floor(x);
-    float plane = (float)(d > 0.0f ? at + 1 : (float)at == x ? at - 1 : at);
-    float next = (plane - o) * inverse;
-    return next > t ? next
-                    : (plane + (d > 0.0f ? 1.0f : -1.0f) - o) * inverse;
+    *plane = (float)(d > 0.0f ? at + 1 : (float)at == x ? at - 1 : at);
+    if (!((*plane - o) * inverse > t))
+        *plane += step;
+    *next = (*plane - o) * inverse;
+}
+
+/* The same of an axis: most often t has come no farther than to its last. */
+HD void line_pass_plane(float o, float d, float inverse, float t, float *plane,
+                        float *next)
+{
+    if (*next > t)
+        return;
+    *plane += inverse > 0.0f ? 1.0f : -1.0f;
+    *next = (*plane - o) * inverse;
+    if (!(*next > t))
+        line_plane(o, d, inverse, t, plane, next);
+}
+
+/* Whether the place of a lattice has one. */
+HD bool line_has_lattice(const line_job *job, int i)
+{
+    return scene_may(MAY_MANY) || i == 0 || job->cells;
 }
 
 /* Finds the planes beyond t, of the axes whose planes t has reached. */
@@ -144,12 +169,14 @@ HD void line_advance(line_job *job, float t)
 {
     for (int i = 0; i < line_lattices(job); i++) {
         line_lattice *l = &job->lattice[i];
-        if (!(l->next.x > t))
-            l->next.x = line_plane(l->o.x, l->d.x, l->inverse.x, t);
-        if (!(l->next.y > t))
-            l->next.y = line_plane(l->o.y, l->d.y, l->inverse.y, t);
-        if (!(l->next.z > t))
-            l->next.z = line_plane(l->o.z, l->d.z, l->inverse.z, t);
+        if (!line_has_lattice(job, i))
+            continue;
+        line_pass_plane(l->o.x, l->d.x, l->inverse.x, t, &l->plane.x,
+                        &l->next.x);
+        line_pass_plane(l->o.y, l->d.y, l->inverse.y, t, &l->plane.y,
+                        &l->next.y);
+        line_pass_plane(l->o.z, l->d.z, l->inverse.z, t, &l->plane.z,
+                        &l->next.z);
     }
 }
 
@@ -158,7 +185,8 @@ HD float line_stop(const line_job *job, float t, float t_end)
     float stop = t_end;
     for (int i = 0; i < line_lattices(job); i++) {
         vec3 n = job->lattice[i].next;
-        stop = hd_min(stop, hd_min(n.x, hd_min(n.y, n.z)));
+        if (line_has_lattice(job, i))
+            stop = hd_min(stop, hd_min(n.x, hd_min(n.y, n.z)));
     }
     return stop > t ? stop : t_end;
 }
@@ -170,28 +198,51 @@ HD bool line_scatters(const line_job *job, const flat_medium *m, rgb density)
            !rgb_is_black(m->sigma_s);
 }
 
-/* What a medium scatters of the field's light, per line_share. */
-HD rgb line_light(const line_job *job, const flat_medium *m,
-                  const radiance_point *light)
+/* The field's light as read cell by cell of any size. */
+HD_APART radiance_sight line_light_apart(const flat_scene *s,
+                                         const flat_medium *m, vec3 p, vec3 d)
 {
-    if (job->s->field.ball)
-        return light->eye;
-    rgb in = radiance_seen(job->s, light, m->phase, m->g,
-                           vec3_scale(job->d, -1.0f));
-    return job->s->field.lit ? rgb_add(in, light->lit) : in;
+    radiance_sight out;
+    radiance_point x = radiance_at(s, p, m->kind);
+    out.births = x.births;
+    if (s->field.ball)
+        out.light = x.eye;
+    else if (s->field.lit)
+        out.light = x.lit;
+    else
+        out.light = radiance_seen(s, &x, m->phase, m->g,
+                                  vec3_scale(d, -1.0f));
+    return out;
 }
 
-HD rgb line_share(const line_job *job, const flat_medium *m, rgb density)
+/* What a medium scatters of the field's light at p, per line_share. */
+HD radiance_sight line_light(const flat_scene *s, const line_job *job,
+                             const flat_medium *m, vec3 p)
 {
-    return job->s->field.ball ? rgb_gray(radiance_thickness(m, density))
+    int place = radiance_sight_place(&s->field, m->kind);
+    return place >= 0 && !s->field.refined
+               ? radiance_sight_at(s, p, place)
+               : line_light_apart(s, m, p, job->d);
+}
+
+/* Whether that is the same for all media of a kind. */
+HD bool line_reads_alike(const flat_scene *s)
+{
+    const radiance_lattice *f = &s->field;
+    return f->ball || f->eye >= 0 || f->flux < 0;
+}
+
+HD rgb line_share(const flat_scene *s, const flat_medium *m, rgb density)
+{
+    return s->field.ball ? rgb_gray(radiance_thickness(m, density))
                               : rgb_mul(m->sigma_s, density);
 }
 
 /* Whether births tell of emission. */
-HD bool line_has_births(const line_job *job)
+HD bool line_has_births(const flat_scene *s, const line_job *job)
 {
-    return scene_may(MAY_FIELD) && job->scattered && job->s->field.ball &&
-           job->s->field.births;
+    return scene_may(MAY_FIELD) && job->scattered && s->field.ball &&
+           s->field.births;
 }
 
 /* Whether part i of the walk emits what is asked for. */
@@ -202,12 +253,12 @@ HD bool line_emits(const line_job *job, const media_walk *w, int i)
 }
 
 /* The share of its emission q at p that counts. */
-HD rgb line_glow(const line_job *job, const media_walk *w, int i, rgb q,
-                 vec3 p, float t)
+HD rgb line_glow(const flat_scene *s, const line_job *job,
+                 const media_walk *w, int i, rgb q, vec3 p, float t)
 {
     if (rgb_is_black(q))
         return q;
-    return rgb_scale(q, glow_ray_share(job->s, walk_part(w, i)->medium, p, t,
+    return rgb_scale(q, glow_ray_share(s, walk_part(w, i)->medium, p, t,
                                        job->p_dir));
 }
 
@@ -217,34 +268,34 @@ HD bool line_part_empty(const lattice_walk *part)
 }
 
 /* The field is read where something comes of it alone. */
-HD line_point line_at(const line_job *job, const media_walk *w, float t)
+HD line_point line_at(const flat_scene *s, const line_job *job,
+                      const media_walk *w, float t)
 {
     line_point out;
-    radiance_point light = radiance_nothing();
+    radiance_sight light = radiance_no_sight();
     int read = RADIANCE_ANYWHERE;
-    bool births = line_has_births(job);
+    bool births = line_has_births(s, job);
     out.sigma_t = out.source = rgb_gray(0.0f);
     vec3 p = vec3_mad(job->o, t, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
-        const flat_medium *m = walk_medium(job->s, w, i);
+        const flat_medium *m = walk_medium(s, w, i);
         if (line_part_empty(walk_part(w, i)))
             continue;
-        field_point x = lattice_point(job->s, walk_part(w, i), p, t);
-        rgb density = medium_density(job->s, m, &x), q = rgb_gray(0.0f);
+        field_point x = lattice_point(s, walk_part(w, i), p, t);
+        rgb density = medium_density(s, m, &x), q = rgb_gray(0.0f);
         out.sigma_t = rgb_add(out.sigma_t, rgb_mul(m->sigma_t, density));
         if (line_emits(job, w, i))
-            q = line_glow(job, w, i, medium_source(job->s, m, &x, density), p,
+            q = line_glow(s, job, w, i, medium_source(s, m, &x, density), p,
                           t);
         bool scatters = line_scatters(job, m, density);
         if (read != m->kind &&
             (scatters || (births && !rgb_is_black(q)))) {
-            light = radiance_at(job->s, p, m->kind);
-            read = m->kind;
+            light = line_light(s, job, m, p);
+            read = line_reads_alike(s) ? m->kind : RADIANCE_ANYWHERE;
         }
         if (scatters)
             out.source = rgb_add(out.source,
-                rgb_mul(line_light(job, m, &light),
-                        line_share(job, m, density)));
+                rgb_mul(light.light, line_share(s, m, density)));
         if (!rgb_is_black(q))
             out.source = rgb_add(out.source,
                                  births ? rgb_scale(q, light.births) : q);
@@ -257,48 +308,46 @@ typedef struct {
 } line_twins;
 
 /* The same at two points between planes; the field is read in their middle. */
-HD line_twins line_at_twins(const line_job *job, const media_walk *w, float ta,
-                            float tb)
+HD line_twins line_at_twins(const flat_scene *s, const line_job *job,
+                            const media_walk *w, float ta, float tb)
 {
     line_twins out;
-    radiance_point light = radiance_nothing();
+    radiance_sight light = radiance_no_sight();
     int read = RADIANCE_ANYWHERE;
-    bool births = line_has_births(job);
+    bool births = line_has_births(s, job);
     out.a.sigma_t = out.a.source = rgb_gray(0.0f);
     out.b = out.a;
     vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
         const lattice_walk *part = walk_part(w, i);
-        const flat_medium *m = walk_medium(job->s, w, i);
+        const flat_medium *m = walk_medium(s, w, i);
         if (line_part_empty(part))
             continue;
         twin_point x;
-        x.a = lattice_point(job->s, part, pa, ta);
-        x.b = lattice_point(job->s, part, pb, tb);
-        twin_rgb density = twin_density(job->s, m, &x), q;
+        x.a = lattice_point(s, part, pa, ta);
+        x.b = lattice_point(s, part, pb, tb);
+        twin_rgb density = twin_density(s, m, &x), q;
         q.a = q.b = rgb_gray(0.0f);
         out.a.sigma_t = rgb_add(out.a.sigma_t, rgb_mul(m->sigma_t, density.a));
         out.b.sigma_t = rgb_add(out.b.sigma_t, rgb_mul(m->sigma_t, density.b));
         if (line_emits(job, w, i)) {
-            q = twin_source(job->s, m, &x, &density);
-            q.a = line_glow(job, w, i, q.a, pa, ta);
-            q.b = line_glow(job, w, i, q.b, pb, tb);
+            q = twin_source(s, m, &x, &density);
+            q.a = line_glow(s, job, w, i, q.a, pa, ta);
+            q.b = line_glow(s, job, w, i, q.b, pb, tb);
         }
         bool scatters = line_scatters(job, m, density.a) ||
                         line_scatters(job, m, density.b);
         bool emits = !rgb_is_black(q.a) || !rgb_is_black(q.b);
         if (read != m->kind && (scatters || (births && emits))) {
-            light = radiance_at(job->s,
-                                vec3_mad(job->o, 0.5f * (ta + tb), job->d),
-                                m->kind);
-            read = m->kind;
+            light = line_light(s, job, m,
+                               vec3_mad(job->o, 0.5f * (ta + tb), job->d));
+            read = line_reads_alike(s) ? m->kind : RADIANCE_ANYWHERE;
         }
         if (scatters) {
-            rgb in = line_light(job, m, &light);
             out.a.source = rgb_add(out.a.source,
-                rgb_mul(in, line_share(job, m, density.a)));
+                rgb_mul(light.light, line_share(s, m, density.a)));
             out.b.source = rgb_add(out.b.source,
-                rgb_mul(in, line_share(job, m, density.b)));
+                rgb_mul(light.light, line_share(s, m, density.b)));
         }
         float scale = births ? light.births : 1.0f;
         out.a.source = rgb_add(out.a.source, rgb_scale(q.a, scale));
@@ -307,19 +356,31 @@ HD line_twins line_at_twins(const line_job *job, const media_walk *w, float ta,
     return out;
 }
 
+/* Where the short form of line_reach holds: below ln(2)/2. */
+#define LINE_THIN 0.34f
+
 /* Int_0^length exp(-sigma x) dx, good down to sigma = 0. */
 HD float line_reach(float sigma, float length)
 {
     float tau = sigma * length;
-    return tau < 1e-4f ? length * (1.0f - 0.5f * tau)
-                       : -fm_expm1(-tau) / sigma;
+    return tau < LINE_THIN ? length * (1.0f - tau * fm_exp_rest(-tau))
+                           : -fm_expm1(-tau) / sigma;
+}
+
+/* exp(-tau) of tau >= 0; where it is not normal, by its root. */
+HD float line_left(double tau)
+{
+    float x = (float)tau;
+    bool deep = !(x < 87.0f);
+    float left = fm_exp_within(deep ? -hd_min(0.5f * x, 87.0f) : -x);
+    return deep ? left * left : left;
 }
 
 /* What stands for exp(-depth) of a depth told twice: with half the difference
  * `odds`. */
 HD float line_pass(double tau, float odds)
 {
-    float mean = fm_exp((float)-tau);
+    float mean = line_left(tau);
     return scene_may(MAY_FUNCTIONS) && odds != 0.0f ? mean * fm_cos(odds)
                                                     : mean;
 }
@@ -333,13 +394,32 @@ HD float line_half_channel(float source, float sigma, float length, float odds,
     return seen;
 }
 
+/* Channels whose depths differ, at most. */
+HD int line_channels(void)
+{
+    return scene_may(MAY_COLORS) ? 3 : 1;
+}
+
+HD bool line_is_even(rgb sigma)
+{
+    return sigma.r == sigma.g && sigma.r == sigma.b;
+}
+
 /* Whether what passes is the same in all channels, here and before. */
 HD bool line_is_gray(const line_integral *out, const line_point *p)
 {
-    return p->sigma_t.r == p->sigma_t.g && p->sigma_t.r == p->sigma_t.b &&
+    return line_channels() == 1 ||
+           (line_is_even(p->sigma_t) &&
            out->tau[0] == out->tau[1] && out->tau[0] == out->tau[2] &&
            (!scene_may(MAY_FUNCTIONS) || (out->odds[0] == out->odds[1] &&
-                                          out->odds[0] == out->odds[2]));
+                                          out->odds[0] == out->odds[2])));
+}
+
+/* Adds the same depth to all channels. */
+HD void line_deepen(line_integral *out, double depth)
+{
+    for (int c = 0; c < line_channels(); c++)
+        out->tau[c] += depth;
 }
 
 /* The same numbers as channel by channel, with a third of the exponentials. */
@@ -353,9 +433,7 @@ HD void line_half_gray(line_integral *out, const line_point *p, float length)
         out->radiance.g += pass * p->source.g * reach;
         out->radiance.b += pass * p->source.b * reach;
     }
-    out->tau[0] += depth;
-    out->tau[1] += depth;
-    out->tau[2] += depth;
+    line_deepen(out, depth);
 }
 
 /* Adds a part of constant coefficients. */
@@ -373,6 +451,77 @@ HD void line_half(line_integral *out, const line_point *p, float length)
                                          out->odds[2], &out->tau[2]);
 }
 
+/* line_reach of two, most often thin ones. */
+HD void line_reaches(float sigma_a, float sigma_b, float length, float *a,
+                     float *b)
+{
+    float tau_a = sigma_a * length, tau_b = sigma_b * length;
+    if (tau_a < LINE_THIN && tau_b < LINE_THIN) {
+        *a = length * (1.0f - tau_a * fm_exp_rest(-tau_a));
+        *b = length * (1.0f - tau_b * fm_exp_rest(-tau_b));
+        return;
+    }
+    HD_ROLLED
+    for (int i = 0; i < 2; i++) {
+        float reach = line_reach(i ? sigma_b : sigma_a, length);
+        *a = i ? *a : reach;
+        *b = reach;
+    }
+}
+
+/* What counts of the sources of two parts of constant coefficients, one behind
+ * the other, each of that length. */
+HD void line_weigh(double tau, float odds, float sigma_a, float sigma_b,
+                   float length, float *a, float *b)
+{
+    float pass = line_pass(tau, odds), reach_a, reach_b;
+    line_reaches(sigma_a, sigma_b, length, &reach_a, &reach_b);
+    *a = pass * reach_a;
+    /* sigma times the reach is what is lost. */
+    *b = pass * hd_max(1.0f - sigma_a * reach_a, 0.0f) * reach_b;
+}
+
+HD float line_halves_channel(float source_a, float source_b, float sigma_a,
+                             float sigma_b, float length, float odds,
+                             double *tau)
+{
+    float a = 0.0f, b = 0.0f;
+    if (source_a != 0.0f || source_b != 0.0f)
+        line_weigh(*tau, odds, sigma_a, sigma_b, length, &a, &b);
+    *tau += (double)sigma_a * (double)length;
+    *tau += (double)sigma_b * (double)length;
+    return a * source_a + b * source_b;
+}
+
+/* Adds both halves of a stretch, each of that length. */
+HD void line_halves(line_integral *out, const line_twins *x, float length)
+{
+    const line_point *p = &x->a, *q = &x->b;
+    if (line_is_gray(out, p) && (line_channels() == 1 ||
+                                 line_is_even(q->sigma_t))) {
+        float a, b;
+        if (!rgb_is_black(p->source) || !rgb_is_black(q->source)) {
+            line_weigh(out->tau[0], out->odds[0], p->sigma_t.r, q->sigma_t.r,
+                       length, &a, &b);
+            out->radiance.r += a * p->source.r + b * q->source.r;
+            out->radiance.g += a * p->source.g + b * q->source.g;
+            out->radiance.b += a * p->source.b + b * q->source.b;
+        }
+        line_deepen(out, (double)p->sigma_t.r * (double)length);
+        line_deepen(out, (double)q->sigma_t.r * (double)length);
+        return;
+    }
+    out->radiance.r += line_halves_channel(
+        p->source.r, q->source.r, p->sigma_t.r, q->sigma_t.r, length,
+        out->odds[0], &out->tau[0]);
+    out->radiance.g += line_halves_channel(
+        p->source.g, q->source.g, p->sigma_t.g, q->sigma_t.g, length,
+        out->odds[1], &out->tau[1]);
+    out->radiance.b += line_halves_channel(
+        p->source.b, q->source.b, p->sigma_t.b, q->sigma_t.b, length,
+        out->odds[2], &out->tau[2]);
+}
+
 HD bool line_piece_empty(const media_walk *w)
 {
     for (int i = 0; i < walk_parts(w); i++)
@@ -382,11 +531,11 @@ HD bool line_piece_empty(const media_walk *w)
 }
 
 /* Optical depth of a stretch, as far as the bounds tell. */
-HD float line_depth(const line_job *job, const media_walk *w, float length)
+HD float line_depth(const flat_scene *s, const media_walk *w, float length)
 {
     float sum = 0.0f;
     for (int i = 0; i < walk_parts(w); i++)
-        sum += rgb_max(walk_medium(job->s, w, i)->sigma_t) *
+        sum += rgb_max(walk_medium(s, w, i)->sigma_t) *
                walk_part(w, i)->bound.density;
     return sum * length;
 }
@@ -474,22 +623,22 @@ HD void line_pair(line_integral *out, const line_point *a,
 
 /* From t on over `length`, by samples: one a part where next to nothing is
  * lost, as its square is what is wrong. */
-HD void line_sample(line_job *job, const media_walk *w, float t, float length,
-                    line_integral *out)
+HD void line_sample(const flat_scene *s, line_job *job, const media_walk *w,
+                    float t, float length, line_integral *out)
 {
     const float deep = 0.5f, most = 64.0f, thin = 1e-3f;
-    float depth = line_depth(job, w, length);
+    float depth = line_depth(s, w, length);
     float rate = depth < thin ? job->rate : 0.5f * job->rate;
     int count = 1 + (int)hd_min(hd_max(depth / deep, rate * length), most);
     float part = length / (float)count;
     for (int i = 0; i < count; i++, t += part) {
-        line_point a = line_at(job, w,
+        line_point a = line_at(s, job, w,
                                t + part * line_place(&job->jitter.first));
         if (depth < thin) {
             line_half(out, &a, part);
             continue;
         }
-        line_point b = line_at(job, w,
+        line_point b = line_at(s, job, w,
                                t + part * line_place(&job->jitter.second));
         line_pair(out, &a, &b, part);
     }
@@ -504,25 +653,25 @@ typedef struct {
     float t;
 } line_flight;
 
-/* Adds the depth of two halves alone, as line_half does. */
-HD void line_dim(const line_job *job, const media_walk *w, float ta, float tb,
-                 float half, line_integral *out)
+/* Adds the depth of two halves alone, as line_halves does. */
+HD void line_dim(const flat_scene *s, const line_job *job, const media_walk *w,
+                 float ta, float tb, float half, line_integral *out)
 {
     rgb a = rgb_gray(0.0f), b = a;
     vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
         const lattice_walk *part = walk_part(w, i);
-        const flat_medium *m = walk_medium(job->s, w, i);
+        const flat_medium *m = walk_medium(s, w, i);
         twin_point x;
         if (line_part_empty(part))
             continue;
-        x.a = lattice_point(job->s, part, pa, ta);
-        x.b = lattice_point(job->s, part, pb, tb);
-        twin_rgb density = twin_density(job->s, m, &x);
+        x.a = lattice_point(s, part, pa, ta);
+        x.b = lattice_point(s, part, pb, tb);
+        twin_rgb density = twin_density(s, m, &x);
         a = rgb_add(a, rgb_mul(m->sigma_t, density.a));
         b = rgb_add(b, rgb_mul(m->sigma_t, density.b));
     }
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < line_channels(); c++) {
         out->tau[c] += (double)rgb_get(a, c) * (double)half;
         out->tau[c] += (double)rgb_get(b, c) * (double)half;
     }
@@ -532,21 +681,20 @@ HD void line_dim(const line_job *job, const media_walk *w, float ta, float tb,
 #define LINE_NODE 0.211324865f
 
 /* From t on over `length`, between planes. */
-HD void line_stretch(line_job *job, const media_walk *w, float t, float stop,
-                     line_integral *out)
+HD void line_stretch(const flat_scene *s, line_job *job, const media_walk *w,
+                     float t, float stop, line_integral *out)
 {
     float length = stop - t, off = LINE_NODE * length;
     if (scene_may(MAY_FUNCTIONS) && job->sampled) {
-        line_sample(job, w, t, length, out);
+        line_sample(s, job, w, t, length, out);
         return;
     }
     if (!job->emission && !job->scattered) {
-        line_dim(job, w, t + off, stop - off, 0.5f * length, out);
+        line_dim(s, job, w, t + off, stop - off, 0.5f * length, out);
         return;
     }
-    line_twins x = line_at_twins(job, w, t + off, stop - off);
-    line_half(out, &x.a, 0.5f * length);
-    line_half(out, &x.b, 0.5f * length);
+    line_twins x = line_at_twins(s, job, w, t + off, stop - off);
+    line_halves(out, &x, 0.5f * length);
 }
 
 /* Finds the next stretch between planes that is not empty, from f->t to *stop.
@@ -569,7 +717,7 @@ HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
     float stop;
     if (!line_next(s, f, &stop))
         return false;
-    line_stretch(&f->job, &f->walk, f->t, stop, out);
+    line_stretch(s, &f->job, &f->walk, f->t, stop, out);
     f->t = stop;
     return true;
 }
@@ -609,13 +757,14 @@ HD void line_add_media(const flat_scene *s, line_flight *f)
 {
     line_job *job = &f->job;
     job->lattices = 0;
+    job->cells = false;
     job->sampled = false;
     job->rate = 0.0f;
     for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)
         line_no_lattice(&job->lattice[i]);
     for (int i = 0; i < walk_parts(&f->walk); i++) {
         const flat_medium *m = walk_medium(s, &f->walk, i);
-        line_add_lattices(job, m);
+        line_add_lattices(s, job, m);
         if (scene_may(MAY_FUNCTIONS) && m->sampled) {
             job->sampled = true;
             job->rate = hd_max(job->rate,
@@ -623,7 +772,7 @@ HD void line_add_media(const flat_scene *s, line_flight *f)
         }
     }
     if (job->scattered)
-        line_add_field(job, f->walk.count == 1 ? walk_medium(s, &f->walk, 0)
+        line_add_field(s, job, f->walk.count == 1 ? walk_medium(s, &f->walk, 0)
                                                : 0);
 }
 
@@ -639,7 +788,6 @@ HD bool line_begin(const flat_scene *s, const container_set *set, vec3 o,
     f->t = t0;
     if (f->walk.count == 0)
         return false;
-    f->job.s = s;
     f->job.o = o;
     f->job.d = d;
     f->job.p_dir = p_dir;
@@ -667,6 +815,8 @@ HD void line_integrate(const flat_scene *s, const container_set *set,
 
 HD rgb line_transmittance(const line_integral *l)
 {
+    if (line_channels() == 1)
+        return rgb_gray(line_pass(l->tau[0], l->odds[0]));
     return rgb_make(line_pass(l->tau[0], l->odds[0]),
                     line_pass(l->tau[1], l->odds[1]),
                     line_pass(l->tau[2], l->odds[2]));
@@ -684,6 +834,8 @@ HD float line_lost(double tau, float odds)
 /* 1 - transmittance, exact where it is tiny. */
 HD rgb line_opacity(const line_integral *l)
 {
+    if (line_channels() == 1)
+        return rgb_gray(line_lost(l->tau[0], l->odds[0]));
     return rgb_make(line_lost(l->tau[0], l->odds[0]),
                     line_lost(l->tau[1], l->odds[1]),
                     line_lost(l->tau[2], l->odds[2]));

@@ -91,6 +91,16 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
         lit_cell_light(s, (int)i, &p, x, &ball, out);
 }
 
+/* Adds what photons brought and goes on to the eye, too: lines read all of it
+ * as one. */
+HD void lit_cell_join(const radiance_lattice *f, float *out)
+{
+    int all = 3 * radiance_phases(f);
+    for (int i = 0; f->lit && i < all; i++)
+        out[f->lit + i] += f->eye >= 0 ? out[f->eye + i]
+                                       : WARP_INV_4PI * out[f->fluence + i];
+}
+
 /* Cell i of a brick that is there, if it has so many, into its numbers. */
 HD void lit_cell_run(const flat_scene *s, uint64_t seed, uint32_t frame,
                      uint64_t brick, int i, float *cells,
@@ -101,9 +111,10 @@ HD void lit_cell_run(const flat_scene *s, uint64_t seed, uint32_t frame,
     if (i >= 512 >> 3 * radiance_level(s, slot))
         return;
     uint64_t cell = (uint64_t)radiance_first(s, slot) + (uint64_t)i;
+    float *out = cells + cell * (uint64_t)f->numbers;
     lit_cell(s, radiance_middle(s, brick, i),
-             rng_make(seed, frame, LIT_CELL_PASS, cell),
-             cells + cell * (uint64_t)f->numbers, count);
+             rng_make(seed, frame, LIT_CELL_PASS, cell), out, count);
+    lit_cell_join(f, out);
 }
 
 #endif

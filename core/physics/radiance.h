@@ -384,6 +384,20 @@ HD void radiance_blend(const radiance_lattice *f, const float *v, int kind,
     }
 }
 
+/* Of a cell that has 4 numbers in all: with one load. */
+HD void radiance_four(const float *v, float *out)
+{
+#ifdef __CUDACC__
+    const float4 x = *reinterpret_cast<const float4 *>(v);
+    out[0] = x.x;
+    out[1] = x.y;
+    out[2] = x.z;
+    out[3] = x.w;
+#else
+    memcpy(out, v, 4 * sizeof *out);
+#endif
+}
+
 HD radiance_point radiance_nothing(void)
 {
     radiance_point out;
@@ -417,6 +431,7 @@ HD void radiance_gather(const flat_scene *s, vec3 p, int kind, int level,
     for (int i = 0; i < 3; i++)
         at[i] = radiance_place(&s->field, vec3_get(p, i), i, level,
                                &fraction[i]);
+    HD_ROLLED
     for (int k = 0; k < 8; k++) {
         int x = k & 1, y = k >> 1 & 1, z = k >> 2;
         float weight = share * (x ? fraction[0] : 1.0f - fraction[0]) *
@@ -497,6 +512,167 @@ HD radiance_point radiance_at(const flat_scene *s, vec3 p, int kind)
     out.lit = rgb_scale(out.lit, scale);
     for (int c = 0; c < 3; c++)
         out.flux[c] = vec3_scale(out.flux[c], scale);
+    return out;
+}
+
+/* What of the cells' light came straight from lights, and goes on to the eye:
+ * `lit` has all of it (lit_cell.h). */
+HD rgb radiance_lit(const flat_scene *s, vec3 p, int kind)
+{
+    radiance_point x = radiance_at(s, p, kind);
+    return rgb_sub(x.lit, s->field.eye >= 0
+                              ? x.eye
+                              : rgb_scale(x.fluence, WARP_INV_4PI));
+}
+
+/* The slots of the bricks of the eight cells from `at` on, of a field that is
+ * not refined: most often one brick's. */
+HD void radiance_slots_of(const flat_scene *s, const int *at, int32_t *slot)
+{
+    const radiance_lattice *f = &s->field;
+    uint32_t row = (uint32_t)f->bricks[0];
+    uint32_t plane = row * (uint32_t)f->bricks[1];
+    const int32_t *first = s->radiance_slots +
+                           (plane * (uint32_t)(at[2] >> 3) +
+                            row * (uint32_t)(at[1] >> 3) +
+                            (uint32_t)(at[0] >> 3));
+    uint32_t x = (at[0] & 7) == 7 ? 1 : 0;
+    uint32_t y = (at[1] & 7) == 7 ? row : 0;
+    uint32_t z = (at[2] & 7) == 7 ? plane : 0;
+    for (int k = 0; k < 8; k++)
+        slot[k] = k ? slot[0] : first[0];
+    for (int k = 1; (x | y | z) != 0 && k < 8; k++)
+        slot[k] = first[(k & 1 ? x : 0) + (k & 2 ? y : 0) + (k & 4 ? z : 0)];
+}
+
+/* What lines ask of the field: light that goes on to the eye, as it is or, of
+ * balls, per thickness; and of births. */
+typedef struct {
+    rgb light;
+    float births;
+} radiance_sight;
+
+HD radiance_sight radiance_no_sight(void)
+{
+    radiance_sight out;
+    out.light = rgb_gray(0.0f);
+    out.births = 0.0f;
+    return out;
+}
+
+/* The place of three numbers that are that light, but for a factor; -1: there
+ * are none. */
+HD int radiance_sight_place(const radiance_lattice *f, int kind)
+{
+    int place = scene_may(MAY_MANY) ? 3 * kind : 0;
+    if (scene_may(MAY_BALLS) && f->ball)
+        return f->eye;
+    if (f->lit)
+        return f->lit + place;
+    return f->eye >= 0 ? f->eye + place : f->flux < 0 ? f->fluence : -1;
+}
+
+/* Adds three numbers of a cell, and those of births, `weight` times. */
+HD void radiance_see(const radiance_lattice *f, const float *v, int place,
+                     float weight, radiance_sight *out)
+{
+    float x[4];
+    if (scene_may(MAY_BALLS) && f->ball && f->numbers == 4) {
+        radiance_four(v, x);
+        out->births += weight * x[3];
+    } else {
+        x[0] = v[place];
+        x[1] = v[place + 1];
+        x[2] = v[place + 2];
+    }
+    out->light.r += weight * x[0];
+    out->light.g += weight * x[1];
+    out->light.b += weight * x[2];
+}
+
+/* A point among the eight cells around it, from `at` on. */
+typedef struct {
+    int at[3];
+    float part[3][2];       /* of those before and behind it               */
+} radiance_eight;
+
+HD radiance_eight radiance_eight_of(const flat_scene *s, vec3 p)
+{
+    const radiance_lattice *f = &s->field;
+    const float per_side = 1.0f / f->side;
+    radiance_eight e;
+    for (int i = 0; i < 3; i++) {
+        float last = (float)(8 * f->bricks[i] - 1);
+        float x = (vec3_get(p, i) - f->origin[i]) * per_side - 0.5f;
+        x = hd_min(hd_max(x, 0.0f), last);
+        e.at[i] = (int)hd_min(x, last - 1.0f);
+        e.part[i][1] = x - (float)e.at[i];
+        e.part[i][0] = 1.0f - e.part[i][1];
+    }
+    return e;
+}
+
+/* The mean of those cells that are there. Where there are none, nothing tells
+ * against as many births as should be. */
+HD radiance_sight radiance_see_some(const flat_scene *s,
+                                    const radiance_eight *e, int place)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_sight out = radiance_no_sight();
+    float sum = 0.0f;
+    HD_ROLLED
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        float weight = (x ? e->part[0][1] : e->part[0][0]) *
+                       (y ? e->part[1][1] : e->part[1][0]) *
+                       (z ? e->part[2][1] : e->part[2][0]);
+        int64_t cell = radiance_cell(s, e->at[0] + x, e->at[1] + y,
+                                     e->at[2] + z);
+        if (cell < 0)
+            continue;
+        radiance_see(f, s->radiance + cell * f->numbers, place, weight, &out);
+        sum += weight;
+    }
+    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+    out.births = sum > 0.0f ? out.births * scale : 1.0f;
+    out.light = rgb_scale(out.light, scale);
+    return out;
+}
+
+/* The mean where all of them are there, in bricks of those slots. */
+HD radiance_sight radiance_see_all(const flat_scene *s,
+                                   const radiance_eight *e,
+                                   const int32_t *slot, int place)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_sight out = radiance_no_sight();
+    for (int k = 0; k < 8; k++) {
+        int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        float weight = e->part[0][x] * e->part[1][y] * e->part[2][z];
+        uint32_t in = (uint32_t)(((e->at[2] + z) & 7) * 64 +
+                                 ((e->at[1] + y) & 7) * 8 +
+                                 ((e->at[0] + x) & 7));
+        uint32_t cell = (uint32_t)slot[k] * 512u + in;
+        radiance_see(f, s->radiance + (uint64_t)cell * (uint32_t)f->numbers,
+                     place, weight, &out);
+    }
+    return out;
+}
+
+/* At p, of a field that is not refined: interpolated between the centres of
+ * cells, as by radiance_at. `place`: radiance_sight_place. */
+HD radiance_sight radiance_sight_at(const flat_scene *s, vec3 p, int place)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_eight e = radiance_eight_of(s, p);
+    int32_t slot[8], all = 0;
+    radiance_slots_of(s, e.at, slot);
+    for (int k = 0; k < 8; k++)
+        all |= slot[k];
+    radiance_sight out = all < 0 ? radiance_see_some(s, &e, place)
+                                 : radiance_see_all(s, &e, slot, place);
+    if (!f->ball && !f->lit && f->eye < 0)
+        out.light = rgb_scale(out.light, WARP_INV_4PI);
     return out;
 }
 

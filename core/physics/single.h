@@ -212,14 +212,14 @@ HD rgb single_cells(const flat_scene *s, const path_state *p, float t)
         int32_t interior = container_interior(s, &p->inside, i);
         for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
              k++) {
-            const flat_medium *m = &s->media[
-                s->interior_media[s->interiors[interior].first + k]];
-            field_point at = field_point_make(s, m->lead, x);
+            const flat_medium *m = scene_medium(
+                s, s->interior_media[s->interiors[interior].first + k]);
+            field_point at = medium_point(s, m, x);
             rgb sigma = rgb_mul(m->sigma_s, medium_density(s, m, &at));
             if (rgb_is_black(sigma))
                 continue;
             if (read != m->kind)
-                lit = radiance_at(s, x, m->kind).lit;
+                lit = radiance_lit(s, x, m->kind);
             read = m->kind;
             sum = rgb_add(sum, rgb_mul(sigma, lit));
         }

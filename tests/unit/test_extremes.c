@@ -559,9 +559,15 @@ static void extremes__planes_lie_ahead(void **state)
         t = i & 2 ? nextafterf(t, INFINITY) : t;
         if (!(t > 0.0f))
             continue;
-        float next = line_plane(o, d, inverse, t);
+        float plane = 0.0f, next;
+        line_plane(o, d, inverse, t, &plane, &next);
         assert_true(next > t);
         assert_true((next - t) * fabsf(d) < 1.001f);
+        /* And the one behind it. */
+        float before = next;
+        line_pass_plane(o, d, inverse, before, &plane, &next);
+        assert_true(next > before);
+        assert_true((next - before) * fabsf(d) < 1.001f);
     }
     /* Where floats are eight voxels apart, none lies ahead: to the end. */
     line_job job = {.lattices = 1};
