@@ -9,7 +9,7 @@
 #include "core/physics/glow.h"
 
 /* Lines in a ball's radius, at least, and the most of them in a voxel. */
-#define BALL_LINES 10.0f
+#define BALL_LINES 12.0f
 #define BALL_MOST_LINES 16
 
 /* A ball over voxels. */
@@ -50,7 +50,7 @@ HD ball_box ball_box_make(const flat_glow *g, vec3 x, float r)
     float least = hd_min(reach[0], reach[1]);
     b.lines = 1;
     while (b.lines < BALL_MOST_LINES && (float)b.lines * least < BALL_LINES)
-        b.lines *= 2;
+        b.lines++;
     for (int i = 0; i < 2; i++) {
         float at = i ? b.at.z : b.at.y, lines = (float)b.lines;
         b.lo[i] = hd_floor((at - reach[i]) * lines);
