@@ -71,8 +71,7 @@ static double planck_over_t(double s, double wavelength, double *slope)
 {
     const double c2 = planck * light_speed / boltzmann;
     double x = c2 * s / wavelength, grown = expm1(x);
-    double scale = 2 * planck * light_speed * light_speed /
-                   pow(wavelength, 5);
+    double scale = 2 * planck * light_speed * light_speed / pow(wavelength, 5);
     *slope = -0.5 * scale;
     if (x == 0)
         return scale * wavelength / c2;
@@ -113,8 +112,8 @@ static void rec709(const double xyz[3], double scale, double out[3])
         {0.05563008, -0.20397696, 1.05697151},
     };
     for (int k = 0; k < 3; k++)
-        out[k] = scale * (map[k][0] * xyz[0] + map[k][1] * xyz[1] +
-                          map[k][2] * xyz[2]);
+        out[k] = scale *
+                 (map[k][0] * xyz[0] + map[k][1] * xyz[1] + map[k][2] * xyz[2]);
 }
 
 /* The colour over T at node i, and its slope there for a step of one node. */
