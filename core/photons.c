@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "core/physics/photon_lone.h"
 #include "lib/memory.h"
 
 /* Births of each source by which its power is judged. */
@@ -36,6 +37,12 @@ static void add_source(struct photons *p, int32_t kind, int32_t light)
 bool photons_seek(const flat_scene *s)
 {
     return s->reach.walls || photons_glow(s) || uniform_media_emit(s);
+}
+
+bool photons_lone(const flat_scene *s, uint64_t seed, uint32_t frame,
+                  lone_scene *out)
+{
+    return lone_make(s, seed, frame, out);
 }
 
 static void list_sources(const flat_scene *s, struct photons *p)

@@ -2,6 +2,7 @@
 #ifndef CORE_PHOTONS_H
 #define CORE_PHOTONS_H
 #include "core/flat.h"
+#include "core/physics/lone_scene.h"
 #include "core/physics/photon.h"
 
 /* What the trace stage works on; the sources are owned. */
@@ -19,6 +20,10 @@ bool photons_glow(const flat_scene *scene);
 /* Whether births look for surfaces. The pilots that share photons out do too,
  * on the host, so they ask for a tree there. */
 bool photons_seek(const flat_scene *scene);
+
+/* As lone_make. */
+bool photons_lone(const flat_scene *scene, uint64_t seed, uint32_t frame,
+                  lone_scene *out);
 
 /* Lists the sources of the scene with their shares, for field `pass` of many,
  * or 0: none where nothing emits toward it. */

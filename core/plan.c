@@ -105,6 +105,16 @@ static bool has_colors(const struct flat *f)
     return false;
 }
 
+/* Whether light of several colours can come to media, or become so. */
+static bool has_tints(const struct flat *f)
+{
+    for (size_t i = 0; i < f->lights_count; i++)
+        if (!is_gray(f->lights[i].color))
+            return true;
+    return has_colors(f) || has_emission(f) || has_surfaces(f) ||
+           f->sky_count > 0 || !is_gray(f->view.background);
+}
+
 static bool has_solids(const struct flat *f)
 {
     for (size_t i = 0; i < f->shapes_count; i++)
@@ -143,7 +153,7 @@ static int scene_needs(const struct flat *f)
            (has_kd(f) ? MAY_KDTREE : 0) | (has_many(f) ? MAY_MANY : 0) |
            (has_colors(f) ? MAY_COLORS : 0) |
            (f->view.field.ball ? MAY_BALLS : 0) |
-           (has_clear(f) ? MAY_CLEAR : 0);
+           (has_clear(f) ? MAY_CLEAR : 0) | (has_tints(f) ? MAY_TINTS : 0);
 }
 
 /* Whether samples of functions along straight lines make noise that is seen,

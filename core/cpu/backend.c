@@ -45,7 +45,7 @@ static void *cpu_open(const struct backend_frame *frame,
     s->frame = *frame;
     s->threads = threads > 0 ? threads : thread_processors();
     s->job = backend_pixels(frame);
-    s->stage = choose_stage(frame->stages->needs);
+    s->stage = choose_stage(frame->stages->needs & ~MAY_TINTS);
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
     const struct flat *flat = frame->flat;
     if (s->count && frame->stages->photons)

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <new>
 #include "core/cuda/backend.cuh"
+#include "core/cuda/lone.cuh"
 #include "core/cuda/resident.cuh"
 
 namespace
@@ -225,6 +226,27 @@ const stage *choose(const stage *const *list, int needs)
     return *list;
 }
 
+/* The stage for photons of one gray medium in one container, or NULL. */
+const photon_stage *choose_lone(cuda_state *s)
+{
+    const brume_options *o = s->frame.options;
+    int needs = s->frame.stages->needs & ~TRACE_IGNORES;
+    if (!s->frame.stages->photons || (needs & ~(MAY_FIELD | MAY_TINTS)) ||
+        !photons_lone(&s->frame.flat->view, o->seed, o->frame, &s->lone))
+        return nullptr;
+    return needs & MAY_TINTS ? &lone_tints : &lone_gray;
+}
+
+void choose_photons(cuda_state *s)
+{
+    int needs = s->frame.stages->needs;
+    const photon_stage *lone = choose_lone(s);
+    s->photons = choose(photon_kernels, needs & ~PHOTONS_IGNORE);
+    s->births = lone ? lone : s->photons;
+    s->tracer = lone ? lone : choose(photon_kernels, needs & ~TRACE_IGNORES);
+    s->one_color = (s->tracer->may & MAY_TINTS) == 0;
+}
+
 void describe_job(sample_job *job, const backend_frame *frame)
 {
     const film *f = frame->film;
@@ -243,7 +265,7 @@ bool open_device(cuda_state *s, brume_error *err)
         !device_number(cudaDevAttrMultiProcessorCount, &s->processors, err) ||
         !device_number(cudaDevAttrMaxSharedMemoryPerBlockOptin, &bytes, err))
         return false;
-    s->trace_threads = most_trace_threads;
+    s->trace_threads = s->tracer->threads;
     while (s->trace_threads > 32 &&
            static_cast<size_t>(s->trace_threads / 32) * s->tracer->warp_bytes >
                static_cast<size_t>(bytes))
@@ -289,10 +311,10 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     s->frame = *frame;
     s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
-    s->stage = choose(kernels, frame->stages->needs);
-    s->liner = choose(line_kernels, frame->stages->needs & ~LINES_IGNORE);
-    s->photons = choose(photon_kernels, frame->stages->needs & ~PHOTONS_IGNORE);
-    s->tracer = choose(photon_kernels, frame->stages->needs & ~TRACE_IGNORES);
+    s->stage = choose(kernels, frame->stages->needs & ~MAY_TINTS);
+    s->liner = choose(line_kernels,
+                      frame->stages->needs & ~(LINES_IGNORE | MAY_TINTS));
+    choose_photons(s);
     describe_job(&s->job, frame);
     if (open_device(s, err) &&
         upload_new(&s->to, resident_spare(s->kept), err) &&

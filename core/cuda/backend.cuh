@@ -18,7 +18,9 @@ struct cuda_state {
     const sample_stage *stage;
     const lines_stage *liner;
     const photon_stage *photons;
+    const photon_stage *births;
     const photon_stage *tracer;     /* of photons that are born            */
+    lone_scene lone;
     float *cells;               /* of the field                            */
     int64_t *sum;               /* of its cells; NULL without photons      */
     photon_source *source;
@@ -28,6 +30,8 @@ struct cuda_state {
     unsigned *cell_list;        /* of balls; NULL without them             */
     cell_queue *cell_queue;
     int processors, trace_threads;
+    bool one_color;             /* the channels' sums are alike, and those of
+                               the first are all that is traced            */
     uint64_t reserved;          /* memory that has been told of            */
     device_clock clock;
     brume_device_seconds spent; /* since the last sample                   */

@@ -33,7 +33,9 @@ unsigned trace_blocks(const cuda_state *s)
     uint64_t threads = static_cast<uint64_t>(s->trace_threads);
     uint64_t needed = (born_at_once(&s->frame) + threads - 1) / threads;
     uint64_t most = static_cast<uint64_t>(s->processors) *
-                    (most_trace_threads / threads);
+                    static_cast<uint64_t>(s->tracer->threads *
+                                          s->tracer->blocks) /
+                    threads;
     return static_cast<unsigned>(needed < most ? needed : most);
 }
 
@@ -43,7 +45,7 @@ size_t list_bytes(const cuda_state *s)
     uint64_t photons = born_at_once(&s->frame) +
                        trace_blocks(s) *
                            static_cast<uint64_t>(s->trace_threads);
-    return device_round(photons * s->photons->state_bytes);
+    return device_round(photons * s->births->state_bytes);
 }
 
 /* Bytes of a list of all the field's cells, where they are of balls. */
@@ -82,7 +84,7 @@ bool read_totals(cuda_state *s, brume_stats *out, brume_error *err)
 bool launch(cuda_state *s, const trace_job *job, brume_error *err)
 {
     device_clock_mark(&s->clock, 0);
-    s->photons->bear(job);
+    s->births->bear(job);
     return device_check(cudaGetLastError(), "launching births", err) &&
            device_check(
                s->tracer->trace(job, trace_blocks(s), s->trace_threads),
@@ -97,6 +99,9 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
     out->scene = s->job.scene;
     out->photons = *job;
     out->photons.source = s->source;
+    /* Its field may have been laid out anew. */
+    photons_lone(&s->frame.flat->view, job->seed, job->frame, &s->lone);
+    out->lone = s->lone;
     out->list[0] = s->list[0];
     out->list[1] = s->list[1];
     out->queue = s->queue;
@@ -111,6 +116,32 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
                         "clearing the counters", err) &&
            device_check(cudaMemset(s->total, 0, sizeof *s->total),
                         "clearing the counters", err);
+}
+
+/* The first channel's sums are those of the others. */
+__global__ void share_colors(radiance_lattice f, int64_t *sum, uint64_t cells)
+{
+    uint64_t i = static_cast<uint64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+    if (i >= cells)
+        return;
+    int64_t *at = sum + i * static_cast<uint64_t>(f.numbers);
+    for (int k = 0; f.eye >= 0 && k < f.phases; k++)
+        at[f.eye + 3 * k + 1] = at[f.eye + 3 * k + 2] = at[f.eye + 3 * k];
+    if (f.fluence >= 0)
+        at[f.fluence + 1] = at[f.fluence + 2] = at[f.fluence];
+    for (int k = 0; f.flux >= 0 && k < 3; k++)
+        at[f.flux + 3 + k] = at[f.flux + 6 + k] = at[f.flux + k];
+}
+
+void end_trace(cuda_state *s)
+{
+    const flat_scene *view = &s->frame.flat->view;
+    if (!s->one_color || view->radiance_count == 0)
+        return;
+    uint64_t cells = view->radiance_count /
+                     static_cast<uint64_t>(view->field.numbers);
+    share_colors<<<static_cast<unsigned>((cells + block_size - 1) / block_size),
+                   block_size>>>(view->field, s->sum, cells);
 }
 
 /* As radiance_resolve. */
@@ -196,7 +227,7 @@ bool photons_warm(cuda_state *s, brume_error *err)
     t.first = 0;
     t.born = 0;
     t.last = 1;
-    s->photons->bear(&t);
+    s->births->bear(&t);
     if (!device_check(s->tracer->trace(&t, 1, s->trace_threads),
                       "launching the trace stage", err))
         return false;
@@ -231,6 +262,7 @@ bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
                            done / static_cast<double>(job->count)))
             return true;
     }
+    end_trace(s);
     return read_totals(s, stats, err);
 }
 

@@ -4,6 +4,7 @@
 #ifndef CORE_CUDA_PHOTONS_CUH
 #define CORE_CUDA_PHOTONS_CUH
 #include "core/cuda/sample.cuh"
+#include "core/physics/lone_scene.h"
 #include "core/physics/photon.h"
 
 /* Threads of a block that traces, at most: a multiprocessor has room for one.
@@ -39,6 +40,7 @@ struct trace_job {
     int last;               /* 1: nothing is to be left                    */
     int64_t *sum;           /* of the field's cells                        */
     photon_totals *total;
+    lone_scene lone;        /* of stages that are for it                   */
 };
 
 /* Counts of the list of cells. */
@@ -61,8 +63,11 @@ struct photon_stage {
     int may;                /* MAY_* of the scenes that it can do          */
     size_t state_bytes;     /* of a photon_state                           */
     size_t warp_bytes;      /* of a warp's memory that it shares           */
+    int threads, blocks;    /* of a block that traces, at most; blocks of a
+                               multiprocessor                              */
     void (*bear)(const trace_job *job);
     cudaError_t (*trace)(const trace_job *job, unsigned blocks, int threads);
+    /* NULL: another stage's */
     void (*balls)(const cell_job *job);
     void (*light)(const cell_job *job);
 };

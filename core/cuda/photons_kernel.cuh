@@ -431,5 +431,5 @@ void light(const cell_job *job)
 }
 
 const photon_stage PHOTON_STAGE = {
-    SCENE_MAY, sizeof(photon_state), sizeof(warp_memory),
+    SCENE_MAY, sizeof(photon_state), sizeof(warp_memory), most_trace_threads, 1,
     bear, trace, balls, light};

@@ -1,5 +1,6 @@
 /* One gray medium among simple surfaces and meshes, with lamps. */
-#define SCENE_MAY (MAY_MESHES | MAY_SURFACES | MAY_SKY | MAY_LAMPS | MAY_FIELD)
+#define SCENE_MAY                                                              \
+    (MAY_MESHES | MAY_SURFACES | MAY_SKY | MAY_LAMPS | MAY_FIELD | MAY_TINTS)
 #define HD_INLINE __forceinline__
 #define PHOTON_STAGE photons_lit
 #include "core/cuda/photons_kernel.cuh"

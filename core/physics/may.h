@@ -24,7 +24,9 @@ enum {
     MAY_COLORS = 4096,      /* media in which the channels fly differently */
     MAY_BALLS = 8192,       /* a field of balls                            */
     MAY_PLATE = 16384,      /* a picture from elsewhere before the eye     */
-    MAY_ALL = 32767
+    MAY_TINTS = 32768,      /* power of photons whose channels differ: what
+                               samples do is the same                      */
+    MAY_ALL = 65535
 };
 
 #ifndef SCENE_MAY

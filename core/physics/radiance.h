@@ -37,13 +37,19 @@ typedef struct {
     int32_t waits;          /* one does                                    */
 } radiance_tally;
 
-HD void radiance_add(int64_t *sum, double value)
+/* To the nearest whole number; halves go away from 0. As a float times a power
+ * of two loses nothing, and a sum rounded toward 0 leaves its whole part as it
+ * is, floats are enough for a GPU. */
+HD void radiance_add(int64_t *sum, float value)
 {
-    int64_t x = (int64_t)(value * RADIANCE_ONE + (value < 0.0 ? -0.5 : 0.5));
 #ifdef __CUDA_ARCH__
-    atomicAdd((unsigned long long *)sum, (unsigned long long)x);
+    float x = value * (float)RADIANCE_ONE;
+    int64_t n = __float2ll_rz(__fadd_rz(x, copysignf(0.5f, x)));
+    atomicAdd((unsigned long long *)sum, (unsigned long long)n);
 #else
-    __atomic_fetch_add(sum, x, __ATOMIC_RELAXED);
+    double x = (double)value * RADIANCE_ONE;
+    __atomic_fetch_add(sum, (int64_t)(x + (x < 0.0 ? -0.5 : 0.5)),
+                       __ATOMIC_RELAXED);
 #endif
 }
 
@@ -140,11 +146,15 @@ HD float radiance_thickness(const flat_medium *m, rgb density)
     return rgb_mean(rgb_mul(density, m->sigma_s));
 }
 
+/* Without MAY_TINTS the channels' sums are alike, and the first one is added to
+ * for all of them. */
 HD void radiance_add_rgb(int64_t *sum, rgb value)
 {
-    radiance_add(sum, (double)value.r);
-    radiance_add(sum + 1, (double)value.g);
-    radiance_add(sum + 2, (double)value.b);
+    radiance_add(sum, value.r);
+    if (!scene_may(MAY_TINTS))
+        return;
+    radiance_add(sum + 1, value.g);
+    radiance_add(sum + 2, value.b);
 }
 
 /* Phase functions that the field knows; of one medium there is one. */
@@ -178,10 +188,12 @@ HD void radiance_deposit(const flat_scene *s, radiance_tally *t, int64_t cell,
                              f->g[i], d, radiance_to_eye(s, p))));
     if (f->fluence >= 0)
         radiance_add_rgb(sum + f->fluence, value);
-    for (int c = 0; f->flux >= 0 && c < 3; c++) {
+    const int channels = scene_may(MAY_TINTS) ? 3 : 1;
+    for (int c = 0; f->flux >= 0 && c < channels; c++) {
         float x = rgb_get(value, c);
-        radiance_add_rgb(sum + f->flux + 3 * c,
-                         rgb_make(x * d.x, x * d.y, x * d.z));
+        radiance_add(sum + f->flux + 3 * c, x * d.x);
+        radiance_add(sum + f->flux + 3 * c + 1, x * d.y);
+        radiance_add(sum + f->flux + 3 * c + 2, x * d.z);
     }
 }
 
@@ -228,7 +240,7 @@ HD bool radiance_splat_cell(const flat_scene *s, int64_t *sums,
         return false;
     int64_t *sum = sums + cell * f->numbers;
     if (e->phase == RADIANCE_BIRTH) {
-        radiance_add(sum + f->births, (double)e->power.r);
+        radiance_add(sum + f->births, e->power.r);
         return true;
     }
     vec3 eye = radiance_to_eye(s, vec3_mad(e->p, f->side, off));

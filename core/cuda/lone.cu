@@ -1,0 +1,50 @@
+/* Births of photons of one gray medium in one container. */
+#define SCENE_MAY (MAY_EMISSION | MAY_SKY | MAY_LAMPS | MAY_FIELD | MAY_TINTS)
+#define HD_INLINE __forceinline__
+#include "core/cuda/count.cuh"
+#include "core/cuda/lone.cuh"
+#include "core/physics/photon_lone.h"
+
+namespace
+{
+
+const int births_at_once = 128;
+
+__device__ __forceinline__ void write_counts(const trace_job *job,
+                                             const photon_counters *c)
+{
+    photon_totals *total = job->total;
+    count_add(&total->track, &c->track);
+    count_warp(&total->photons, c->photons);
+    count_warp(&total->clipped, c->tally.clipped);
+#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
+    PHOTON_BOOKS(X)
+#undef X
+}
+
+/* Those that come to the container wait in the list, in any order. */
+__global__ void __launch_bounds__(births_at_once)
+    bear_lone(const __grid_constant__ trace_job job)
+{
+    unsigned i = blockIdx.x * births_at_once + threadIdx.x;
+    photon_counters count = {};
+    lone_photon p;
+    count.tally.sum = job.sum;
+    if (i == 0)
+        job.queue->taken = job.queue->left[!job.turn] = 0;
+    bool alive = i < job.born && lone_begin(&job.scene, &job.lone, &job.photons,
+                                            job.first + i, &p, &count);
+    unsigned at = take_numbers(&job.queue->left[job.turn], alive);
+    if (alive)
+        static_cast<lone_photon *>(job.list[job.turn])[at] = p;
+    write_counts(&job, &count);
+}
+
+}
+
+void lone_bear(const trace_job *job)
+{
+    unsigned blocks = (job->born + births_at_once - 1) / births_at_once;
+    blocks = blocks > 0 ? blocks : 1;
+    bear_lone<<<blocks, births_at_once>>>(*job);
+}
