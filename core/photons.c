@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "core/physics/photon_lone.h"
+#include "core/physics/lone_make.h"
 #include "lib/memory.h"
 
 /* Births of each source by which its power is judged. */

@@ -4,6 +4,10 @@
 #define CORE_PHYSICS_LONE_SCENE_H
 #include "core/physics/scene.h"
 
+/* Places no farther than this from the origin have no more rounding than
+ * lone_scene.deep leaves room for. */
+#define LONE_NEAR 16.0f
+
 typedef struct {
     affine to_local;        /* of the container, shape 0                   */
     int32_t ball;           /* it is one; else a box                       */
