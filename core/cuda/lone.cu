@@ -17,9 +17,7 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
     count_add(&total->track, &c->track);
     count_warp(&total->photons, c->photons);
     count_warp(&total->clipped, c->tally.clipped);
-#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
-    PHOTON_BOOKS(X)
-#undef X
+    count_books(total, c);
 }
 
 /* Those that come to the container wait in the list, in any order. */

@@ -118,9 +118,7 @@ __device__ __forceinline__ void lone_write(const trace_job *job,
     count_warp(&total->track.majorant_exceeded, count->majorant_exceeded);
     count_warp(&total->events, c->events);
     count_warp(&total->clipped, c->tally.clipped);
-#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
-    PHOTON_BOOKS(X)
-#undef X
+    count_books(total, c);
 }
 
 __global__ void __launch_bounds__(lone_threads, lone_blocks)

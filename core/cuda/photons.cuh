@@ -3,7 +3,7 @@
  * other scenes. */
 #ifndef CORE_CUDA_PHOTONS_CUH
 #define CORE_CUDA_PHOTONS_CUH
-#include "core/cuda/sample.cuh"
+#include "core/cuda/count.cuh"
 #include "core/physics/lone_scene.h"
 #include "core/physics/photon.h"
 
@@ -19,6 +19,15 @@ struct photon_totals {
     PHOTON_BOOKS(X)
 #undef X
 };
+
+/* Adds the books of a warp's threads. */
+__device__ inline void count_books(photon_totals *total,
+                                   const photon_counters *c)
+{
+#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
+    PHOTON_BOOKS(X)
+#undef X
+}
 
 /* Counts of the two lists of photons that wait. Launches take turns: one takes
  * from a list, and leaves in the other what it does not see to the end. */

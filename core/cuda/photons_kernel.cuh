@@ -269,9 +269,7 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
     count_warp(&total->bounces, c->bounces);
     count_warp(&total->stored, c->stored);
     count_warp(&total->clipped, c->tally.clipped);
-#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
-    PHOTON_BOOKS(X)
-#undef X
+    count_books(total, c);
 }
 
 __global__ void __launch_bounds__(births_at_once)

@@ -109,9 +109,9 @@ HD bool lone_make(const flat_scene *s, uint64_t seed, uint32_t frame,
     l->deep = lone_deep_limit(&l->to_local);
     l->key[0] = r.key[0];
     l->key[1] = r.key[1];
-    for (uint32_t i = 0; i < 10; i++) {
-        l->round_key[2 * i] = r.key[0] + i * 0x9e3779b9u;
-        l->round_key[2 * i + 1] = r.key[1] + i * 0xbb67ae85u;
+    for (uint32_t i = 0; i < RNG_ROUNDS; i++) {
+        l->round_key[2 * i] = r.key[0] + i * RNG_STEP0;
+        l->round_key[2 * i + 1] = r.key[1] + i * RNG_STEP1;
     }
     l->covered = lone_is_covered(s);
     lone_make_law(s, l);

@@ -2,6 +2,7 @@
  * container (photon_lone.h). */
 #ifndef CORE_PHYSICS_LONE_SCENE_H
 #define CORE_PHYSICS_LONE_SCENE_H
+#include "core/physics/rng.h"
 #include "core/physics/scene.h"
 
 /* Places no farther than this from the origin have no more rounding than
@@ -15,7 +16,8 @@ typedef struct {
                                in its own space, is surely inside          */
     int32_t covered;        /* the field's lattice holds all that is inside */
     uint32_t key[2];        /* of the streams of numbers                   */
-    uint32_t round_key[20]; /* ... in each round of a block of them        */
+    uint32_t round_key[2 * RNG_ROUNDS];     /* ... in each round of a block
+                               of them                                     */
     int32_t peaked;         /* cells hold what goes to the eye alone, by the
                                law of Henyey and Greenstein, g >= 0:       */
     float law[3];           /* law[2] / x^1.5, x = law[0] + law[1] (1 - c) */

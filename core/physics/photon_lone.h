@@ -101,26 +101,23 @@ HD uint32_t lone_u32(const lone_scene *l, lone_photon *p)
         c[1] = r->counter[1];
         c[2] = PHOTON_PASS;
         c[3] = r->counter[3]++;
-        for (int i = 0; i < 10; i++)
+        for (int i = 0; i < RNG_ROUNDS; i++)
             rng_philox_round(c, l->round_key[2 * i], l->round_key[2 * i + 1]);
         for (int i = 0; i < 4; i++)
             r->word[i] = c[i];
         r->used = 0u;
     }
-    uint32_t i = r->used++;
-    return i == 0u ? r->word[0] : i == 1u ? r->word[1]
-         : i == 2u ? r->word[2] : r->word[3];
+    return rng_take(r);
 }
 
 HD float lone_float(const lone_scene *l, lone_photon *p)
 {
-    return (float)(lone_u32(l, p) >> 8) * 5.96046448e-08f;
+    return rng_float_of(lone_u32(l, p));
 }
 
 HD float lone_fine(const lone_scene *l, lone_photon *p)
 {
-    float x = ((float)lone_u32(l, p) + 0.5f) * 2.32830644e-10f;
-    return hd_min(x, 0.99999994f);
+    return rng_fine_of(lone_u32(l, p));
 }
 
 /* The numbers of a depth; few need it, as a collision draws the next one before
@@ -413,11 +410,7 @@ HD void lone_begin_inside(const flat_scene *s, vec3 o, vec3 d, float t0,
                           float t1, radiance_walk *w)
 {
     const radiance_lattice *f = &s->field;
-    w->t = t0;
-    w->end = t1;
-    w->o = vec3_make((o.x - f->origin[0]) / f->side,
-                     (o.y - f->origin[1]) / f->side,
-                     (o.z - f->origin[2]) / f->side);
+    radiance_set_out(f, o, t0, t1, w);
     for (int i = 0; i < 3; i++) {
         float along = vec3_get(d, i) / f->side;
         int c = lone_floor(vec3_get(w->o, i) + t0 * along);
@@ -450,10 +443,8 @@ HD void lone_deposit(const flat_scene *s, const lone_scene *l,
         radiance_deposit(s, t, cell, p, d, value);
         return;
     }
-    if (!(fabsf(value.r) + fabsf(value.g) + fabsf(value.b) < RADIANCE_MOST)) {
-        t->clipped++;
+    if (radiance_clips(t, value))
         return;
-    }
     vec3 off = vec3_sub(d, radiance_to_eye(s, p));
     float x = l->law[0] + l->law[1] * (0.5f * vec3_dot(off, off));
     radiance_add_rgb(t->sum + cell * s->field.numbers + s->field.eye,

@@ -171,6 +171,15 @@ HD vec3 radiance_to_eye(const flat_scene *s, vec3 p)
                                           : vec3_sub(c->location, p));
 }
 
+/* Whether a deposit is too large to count, or no number. */
+HD bool radiance_clips(radiance_tally *t, rgb value)
+{
+    bool clips = !(fabsf(value.r) + fabsf(value.g) + fabsf(value.b) <
+                   RADIANCE_MOST);
+    t->clipped += clips;
+    return clips;
+}
+
 /* Lays power times length (in sides of a cell) of a flight along d into one
  * cell, which it crosses around p. */
 HD void radiance_deposit(const flat_scene *s, radiance_tally *t, int64_t cell,
@@ -178,10 +187,8 @@ HD void radiance_deposit(const flat_scene *s, radiance_tally *t, int64_t cell,
 {
     const radiance_lattice *f = &s->field;
     int64_t *sum = t->sum + cell * f->numbers;
-    if (!(fabsf(value.r) + fabsf(value.g) + fabsf(value.b) < RADIANCE_MOST)) {
-        t->clipped++;
+    if (radiance_clips(t, value))
         return;
-    }
     for (int i = 0; f->eye >= 0 && i < radiance_phases(f); i++)
         radiance_add_rgb(sum + f->eye + 3 * i,
                          rgb_scale(value, phase_eval_between(f->phase[i],
@@ -284,16 +291,22 @@ typedef struct {
     int32_t cell[3];
 } radiance_walk;
 
-/* False where o + t d, t in [t0, t1], misses the lattice. */
-HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
-                       radiance_walk *w)
+HD void radiance_set_out(const radiance_lattice *f, vec3 o, float t0, float t1,
+                         radiance_walk *w)
 {
-    const radiance_lattice *f = &s->field;
     w->t = t0;
     w->end = t1;
     w->o = vec3_make((o.x - f->origin[0]) / f->side,
                      (o.y - f->origin[1]) / f->side,
                      (o.z - f->origin[2]) / f->side);
+}
+
+/* False where o + t d, t in [t0, t1], misses the lattice. */
+HD bool radiance_begin(const flat_scene *s, vec3 o, vec3 d, float t0, float t1,
+                       radiance_walk *w)
+{
+    const radiance_lattice *f = &s->field;
+    radiance_set_out(f, o, t0, t1, w);
     for (int i = 0; i < 3; i++) {
         float from = vec3_get(w->o, i);
         w->inverse[i] = walk_inverse(vec3_get(d, i) / f->side);

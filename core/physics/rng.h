@@ -26,13 +26,19 @@ HD void rng_philox_round(uint32_t c[4], uint32_t key0, uint32_t key1)
     c[3] = (uint32_t)a;
 }
 
-/* Ten rounds, in place. */
+/* By which keys grow from round to round. */
+#define RNG_STEP0 0x9e3779b9u
+#define RNG_STEP1 0xbb67ae85u
+
+enum { RNG_ROUNDS = 10 };
+
+/* All rounds, in place. */
 HD void rng_philox(uint32_t c[4], uint32_t key0, uint32_t key1)
 {
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < RNG_ROUNDS; i++) {
         rng_philox_round(c, key0, key1);
-        key0 += 0x9e3779b9u;
-        key1 += 0xbb67ae85u;
+        key0 += RNG_STEP0;
+        key1 += RNG_STEP1;
     }
 }
 
@@ -74,6 +80,15 @@ HD rng rng_make(uint64_t seed, uint32_t frame, uint32_t pass, uint64_t path)
     return r;
 }
 
+/* The next word of a block of which some are left. No indexing: the block stays
+ * in registers on a GPU. */
+HD uint32_t rng_take(rng *r)
+{
+    uint32_t i = r->used++;
+    return i == 0u ? r->word[0] : i == 1u ? r->word[1]
+         : i == 2u ? r->word[2] : r->word[3];
+}
+
 HD uint32_t rng_u32(rng *r)
 {
     if (r->used == 4u) {
@@ -86,23 +101,30 @@ HD uint32_t rng_u32(rng *r)
         r->counter[3]++;
         r->used = 0u;
     }
-    uint32_t i = r->used++;
-    /* No indexing: the block stays in registers on a GPU. */
-    return i == 0u ? r->word[0] : i == 1u ? r->word[1]
-         : i == 2u ? r->word[2] : r->word[3];
+    return rng_take(r);
 }
 
 /* Uniform in [0, 1), 24 bits: for directions and choices. */
+HD float rng_float_of(uint32_t x)
+{
+    return (float)(x >> 8) * 5.96046448e-08f;
+}
+
 HD float rng_float(rng *r)
 {
-    return (float)(rng_u32(r) >> 8) * 5.96046448e-08f;
+    return rng_float_of(rng_u32(r));
 }
 
 /* Uniform in (0, 1), fine near 0 for rare events; never rounded to 1, which
  * would end white paths. */
+HD float rng_fine_of(uint32_t x)
+{
+    return hd_min(((float)x + 0.5f) * 2.32830644e-10f, 0.99999994f);
+}
+
 HD float rng_fine(rng *r)
 {
-    return hd_min(((float)rng_u32(r) + 0.5f) * 2.32830644e-10f, 0.99999994f);
+    return rng_fine_of(rng_u32(r));
 }
 
 /* True with probability p, to 2^-64: for choices that may be rare, such as
