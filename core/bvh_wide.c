@@ -62,9 +62,10 @@ bool bvh_collapse(struct flat *flat, struct bvh_binary *binary, int room,
         room = binary->part[0].depth;
     struct task stack[2 * BVH_STACK] = {{0, (uint32_t)flat->bvh_count, room}};
     bool good = FLAT_EXTEND(flat, bvh, 1, err) != NULL;
-    while (good && tasks > 0)
-        tasks--,
-            good = make_node(flat, binary, stack[tasks], stack, &tasks, err);
+    while (good && tasks > 0) {
+        struct task next = stack[--tasks];
+        good = make_node(flat, binary, next, stack, &tasks, err);
+    }
     return good && (flat->bvh_count <= UINT32_MAX / BVH_WIDTH ||
                     brume_fail(err, BRUME_ERR_LIMIT, "more than 2^30 nodes"));
 }

@@ -224,7 +224,7 @@ HD bool line_reads_alike(const flat_scene *s)
 HD rgb line_share(const flat_scene *s, const flat_medium *m, rgb density)
 {
     return s->field.ball ? rgb_gray(radiance_thickness(m, density))
-                              : rgb_mul(m->sigma_s, density);
+                         : rgb_mul(m->sigma_s, density);
 }
 
 /* Whether births tell of emission. */
@@ -518,7 +518,7 @@ HD void line_add_media(const flat_scene *s, line_flight *f)
     }
     if (job->scattered)
         line_add_field(s, job, f->walk.count == 1 ? walk_medium(s, &f->walk, 0)
-                                               : 0);
+                                                  : 0);
 }
 
 /* Begins the ray from t0 to t1 (finite) through the media of `set`; d of unit

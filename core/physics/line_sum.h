@@ -77,9 +77,9 @@ HD bool line_is_gray(const line_integral *out, const line_point *p)
 {
     return line_channels() == 1 ||
            (line_is_even(p->sigma_t) &&
-           out->tau[0] == out->tau[1] && out->tau[0] == out->tau[2] &&
-           (!scene_may(MAY_FUNCTIONS) || (out->odds[0] == out->odds[1] &&
-                                          out->odds[0] == out->odds[2])));
+            out->tau[0] == out->tau[1] && out->tau[0] == out->tau[2] &&
+            (!scene_may(MAY_FUNCTIONS) || (out->odds[0] == out->odds[1] &&
+                                           out->odds[0] == out->odds[2])));
 }
 
 /* Adds the same depth to all channels. */

@@ -92,7 +92,8 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
 }
 
 /* Adds what photons brought and goes on to the eye, too: lines read all of it
- * as one. */
+ * as one. Where nothing is kept for the eye alone there is one phase function,
+ * and it is even. */
 HD void lit_cell_join(const radiance_lattice *f, float *out)
 {
     int all = 3 * radiance_phases(f);
