@@ -1,6 +1,7 @@
 #include "lib/thread.h"
 #include <pthread.h>
 #include <sched.h>
+#include <signal.h>
 #include <unistd.h>
 
 /* A loop. Threads that have nothing to do join it while it has places. */
@@ -113,19 +114,24 @@ static void begin_child(void)
     pool.workers = 0;
 }
 
-/* Starts the threads that are missing, as far as the system lets it. */
+/* Starts the threads that are missing, as far as the system lets it. Signals
+ * are for the others. */
 static void start_workers(int count)
 {
     pthread_attr_t detached;
+    sigset_t all, before;
     if (pool.workers >= count || pthread_attr_init(&detached) != 0)
         return;
     pool.forks = pool.forks ||
                  pthread_atfork(before_fork, after_fork, begin_child) == 0;
     pthread_attr_setdetachstate(&detached, PTHREAD_CREATE_DETACHED);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
     pthread_t thread;
     while (pool.workers < count &&
            pthread_create(&thread, &detached, work, NULL) == 0)
         pool.workers++;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     pthread_attr_destroy(&detached);
 }
 

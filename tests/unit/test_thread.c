@@ -1,5 +1,6 @@
 #include <pthread.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -123,6 +124,25 @@ static void test_thread__loops_side_by_side(void **state)
     }
 }
 
+/* How many threads a signal may come to: the caller alone. */
+static void ask_signals(void *context, size_t index, int thread)
+{
+    sigset_t blocked;
+    (void)index;
+    pthread_sigmask(SIG_SETMASK, NULL, &blocked);
+    if ((thread > 0) != (sigismember(&blocked, SIGTERM) == 1))
+        atomic_fetch_add((atomic_int *)context, 1);
+    usleep(1000);
+}
+
+static void test_thread__signals_are_the_callers(void **state)
+{
+    (void)state;
+    atomic_int wrong = 0;
+    assert_true(parallel_for(THREADS, 4 * THREADS, ask_signals, &wrong, NULL));
+    assert_int_equal(atomic_load(&wrong), 0);
+}
+
 /* A child process has none of the threads that wait, and starts its own. */
 static void test_thread__after_a_fork(void **state)
 {
@@ -150,6 +170,7 @@ int main(void)
         cmocka_unit_test(test_thread__cancelled),
         cmocka_unit_test(test_thread__loops_within_loops),
         cmocka_unit_test(test_thread__loops_side_by_side),
+        cmocka_unit_test(test_thread__signals_are_the_callers),
         cmocka_unit_test(test_thread__after_a_fork),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
