@@ -124,12 +124,34 @@ static void partial__is_of_files_as_they_were_read(void **state)
     free(pixel);
 }
 
+/* One that is torn is none, and nothing of it is left in the picture. */
+static void partial__that_is_torn_leaves_nothing(void **state)
+{
+    struct kept k;
+    char *pixel = malloc(SIZE);
+    (void)state;
+    assert_non_null(pixel);
+    begin(&k);
+    save(&k, pixel, 0.0);
+    FILE *part = fopen(k.part, "r+b");
+    assert_non_null(part);
+    assert_int_equal(fseek(part, -1, SEEK_END), 0);
+    assert_int_equal(fputc(7, part), 7);
+    assert_int_equal(fclose(part), 0);
+    assert_false(load(&k, pixel));
+    for (size_t i = 0; i < SIZE; i++)
+        assert_int_equal(pixel[i], 0);
+    end(&k);
+    free(pixel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(partial__is_found_again),
         cmocka_unit_test(partial__is_not_kept_too_late),
         cmocka_unit_test(partial__is_of_files_as_they_were_read),
+        cmocka_unit_test(partial__that_is_torn_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
