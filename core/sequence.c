@@ -1,35 +1,22 @@
-/* The frames of a film: what is handed over and asked for is done by workers,
- * a thread for each device, which tell what they warn of and how far they are
- * by way of the caller's. What a task needs is done before it, by whichever
- * worker: the pictures are the same however many there are. */
+/* The frames of a film: what is handed over and asked for becomes steps, which
+ * are taken by workers, one for each device. A worker has threads for what is
+ * done before a frame is on the device, there, and between: while one frame is
+ * rendered, the next is prepared and its field filtered. What a step needs is
+ * done before it, by whichever thread: the pictures are the same however many
+ * there are. They tell what they warn of and how far they are by way of the
+ * caller's. */
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include "core/filter.h"
-#include "core/frame.h"
+#include "core/shot.h"
 #include "lib/memory.h"
-#include "lib/timer.h"
 
-/* A frame that was pushed. */
-struct shot {
-    struct shot *next;
-    uint32_t number;
-    brume_scene *scene; /* until it is prepared                        */
-    struct brume_options options;
-    struct brume_still *still; /* of its options as they were given    */
-    bool picture;              /* will be asked for                    */
-    bool open;                 /* the job is                           */
-    struct frame_job job;
-    struct brume_frame out;
-    bool traced; /* the field below is there                    */
-    struct filter_field field;
-    struct brume_error err; /* what it failed by                           */
-};
-
-enum task_kind { TASK_PUSH, TASK_ASK, TASK_FORGET };
+/* The first two are those of a frame that is pushed, the next of a picture that
+ * is asked for. */
+enum step { STEP_PREPARE, STEP_TRACE, STEP_FILTER, STEP_RENDER, STEP_FORGET };
 
 struct result {
     struct result *next;
@@ -40,9 +27,9 @@ struct result {
 
 struct task {
     struct task *next;
-    enum task_kind kind;
+    enum step step, end; /* the next, and the last of it          */
     bool running;
-    struct shot *shot;            /* that is pushed                        */
+    struct shot *shot;            /* that is pushed, until it is prepared  */
     struct result *result;        /* of what is asked for                  */
     uint32_t number, first, last; /* frames                                */
 };
@@ -52,30 +39,40 @@ struct text {
     char text[];
 };
 
+/* A thread, or what one would do that could not be started. */
+struct lane {
+    struct worker *worker;
+    unsigned steps;   /* bits                                  */
+    pthread_t thread; /* of all but a worker's first           */
+    struct filter_scratch scratch;
+};
+
+enum { LANES = 3 };
+
 struct worker {
     struct brume_film *film;
-    pthread_t thread;
-    int number;                /* also of its device                   */
+    pthread_t thread;          /* of the first lane                        */
+    struct lane lane[LANES];   /* the first is the device's                */
+    int number;                /* also of its device                       */
     struct brume_still *still; /* of all but the first, who have that
                                   of the options; it lies on the device,
-                                  and so is freed by the worker        */
-    struct filter_scratch *scratch;
+                                  and so is freed by the first lane        */
 };
 
 struct brume_film {
     struct brume_film_events events;
     struct worker *worker;
     int workers, wanted;
-    pthread_mutex_t lock; /* of what follows, up to `stop`               */
+    bool serial; /* a worker has one thread                      */
+    struct shots shots;
+    pthread_mutex_t lock; /* of what follows, up to `stop`                */
     pthread_cond_t work, news;
-    struct task *task;     /* first to do; those that run too             */
-    struct result *result; /* in the order of what was asked for      */
+    struct task *task;     /* first to do; those that run too              */
+    struct result *result; /* in the order of what was asked for           */
     struct text *warning;
     struct brume_progress progress;
     bool quit;
-    int asked; /* pictures that next() has yet to give            */
-    struct shot *shot;
-    uint64_t ring; /* bytes of the fields of all shots            */
+    int asked; /* pictures that next() has yet to give         */
     atomic_bool stop;
 };
 
@@ -124,282 +121,176 @@ static void on_warn(void *user, const char *text)
     pthread_mutex_unlock(&film->lock);
 }
 
-/* ---- shots -------------------------------------------------------------- */
+/* ---- steps -------------------------------------------------------------- */
 
-/* The list changes; what is on it stays until it is forgotten. */
-static struct shot *find_shot(struct brume_film *film, uint32_t number)
+/* Whether a task waits for one that stands before it: a frame's steps are in
+ * order, a filter needs all that was traced, and what is forgotten must not be
+ * in use. */
+static bool waits_for(const struct task *task, const struct task *t)
 {
-    pthread_mutex_lock(&film->lock);
-    struct shot *shot = film->shot;
-    while (shot && shot->number != number)
-        shot = shot->next;
-    pthread_mutex_unlock(&film->lock);
-    return shot;
-}
-
-static void close_job(struct shot *shot)
-{
-    if (shot->open)
-        frame_close(&shot->job);
-    shot->open = false;
-    brume_scene_free(shot->scene);
-    shot->scene = NULL;
-}
-
-static void free_shot(struct brume_film *film, struct shot *shot)
-{
-    close_job(shot);
-    if (shot->traced) {
-        __atomic_fetch_sub(&film->ring, filter_bytes(&shot->field),
-                           __ATOMIC_RELAXED);
-        filter_release(&shot->field);
-    }
-    brume_frame_free(&shot->out);
-    free(shot);
-}
-
-/* A frame whose scene has no field has none to keep. */
-static bool keep_field(struct brume_film *film, struct shot *shot)
-{
-    struct frame_job *job = &shot->job;
-    if (!plan_stages(job->flat, &shot->options).photons)
+    if (task->step == STEP_FORGET)
         return true;
-    job->held = __atomic_load_n(&film->ring, __ATOMIC_RELAXED);
-    if (!frame_trace(job, &shot->err) ||
-        !filter_keep(job->flat, job->power, &shot->field, &shot->err))
-        return false;
-    shot->traced = true;
-    __atomic_fetch_add(&film->ring, filter_bytes(&shot->field),
-                       __ATOMIC_RELAXED);
-    return true;
+    if (t->step == STEP_FORGET)
+        return task->number < t->number;
+    bool fills = t->step == STEP_PREPARE || t->step == STEP_TRACE;
+    return task->number == t->number || (task->step == STEP_FILTER && fills);
 }
 
-/* What stays on a device stays on that of the worker who looks for it. */
-static void use_still(const struct worker *worker, struct shot *shot)
+static bool may_begin(const struct brume_film *film, const struct task *task)
 {
-    if (shot->still)
-        shot->options.still = worker->still ? worker->still : shot->still;
-}
-
-static bool open_job(const struct worker *worker, struct shot *shot)
-{
-    shot->open = true;
-    use_still(worker, shot);
-    bool good = frame_open(&shot->job, shot->scene, &shot->options, &shot->out,
-                           &shot->err);
-    brume_scene_free(shot->scene);
-    shot->scene = NULL;
-    return good;
-}
-
-/* Where no filter is asked for, nothing is done before the picture is. */
-static void push(const struct worker *worker, struct shot *shot)
-{
-    struct brume_film *film = worker->film;
-    pthread_mutex_lock(&film->lock);
-    append(&film->shot, shot);
-    pthread_mutex_unlock(&film->lock);
-    if (brume_film_reach(&shot->options) == 0)
-        return;
-    if (!open_job(worker, shot) || !keep_field(film, shot) || !shot->picture)
-        close_job(shot);
-}
-
-static void forget(struct brume_film *film, uint32_t below)
-{
-    struct shot *gone = NULL;
-    pthread_mutex_lock(&film->lock);
-    struct shot **at = &film->shot;
-    while (*at) {
-        struct shot *shot = *at;
-        if (shot->number >= below) {
-            at = &shot->next;
-            continue;
-        }
-        *at = shot->next;
-        shot->next = gone;
-        gone = shot;
-    }
-    pthread_mutex_unlock(&film->lock);
-    while (gone) {
-        struct shot *next = gone->next;
-        free_shot(film, gone);
-        gone = next;
-    }
-}
-
-/* ---- pictures ----------------------------------------------------------- */
-
-/* The fields within reach; false with err set where a frame failed. */
-static bool list_fields(struct brume_film *film, const struct task *task,
-                        int reach, const struct filter_field **fields,
-                        struct brume_error *err)
-{
-    for (int k = -reach; k <= reach; k++) {
-        int64_t number = (int64_t)task->number + k;
-        fields[k + reach] = NULL;
-        if (number < task->first || number > task->last)
-            continue;
-        const struct shot *shot = find_shot(film, (uint32_t)number);
-        if (!shot)
-            return brume_fail(err, BRUME_ERR_USAGE,
-                              "frame %lld, which is within the reach of frame "
-                              "%lu, was not pushed",
-                              (long long)number, (unsigned long)task->number);
-        if (shot->err.code) {
-            *err = shot->err;
+    for (const struct task *t = film->task; t != task; t = t->next)
+        if (waits_for(task, t))
             return false;
-        }
-        if (shot->traced)
-            fields[k + reach] = &shot->field;
-    }
     return true;
 }
 
-static bool run_filter(const struct worker *worker, struct shot *shot,
-                       const struct filter_field *const *fields, int reach,
-                       struct brume_error *err)
+/* The first that may begin; but fields go before pictures, so that they are
+ * filtered while a picture is rendered. */
+static struct task *next_task(const struct brume_film *film, unsigned steps)
 {
-    const struct brume_options *o = &shot->options;
-    if (o->photons.adaptive)
-        return filter_adapt(shot->job.flat, fields, reach, o->threads,
-                            worker->scratch, err);
-    return filter_mean(shot->job.flat, fields, o->photons.weight, reach,
-                       o->threads, err);
-}
-
-static bool filter_shot(const struct worker *worker, const struct task *task,
-                        struct shot *shot, struct brume_error *err)
-{
-    struct brume_film *film = worker->film;
-    const struct filter_field *fields[BRUME_MAX_TAPS];
-    int reach = brume_film_reach(&shot->options);
-    struct brume_photon_stats *stats = &shot->out.stats.photons;
-    double start = timer_seconds();
-    if (!list_fields(film, task, reach, fields, err))
-        return false;
-    if (!run_filter(worker, shot, fields, reach, err))
-        return false;
-    stats->ring = shot->job.held = __atomic_load_n(&film->ring,
-                                                   __ATOMIC_RELAXED);
-    stats->drifts = shot->field.drift != NULL;
-    stats->seconds_filter = timer_seconds() - start;
-    return true;
-}
-
-static bool render_shot(const struct worker *worker, const struct task *task,
-                        struct shot *shot, struct brume_error *err)
-{
-    if (!shot)
-        return brume_fail(err, BRUME_ERR_USAGE, "frame %lu was not pushed",
-                          (unsigned long)task->number);
-    if (!shot->err.code && !shot->open && !shot->scene)
-        return brume_fail(err, BRUME_ERR_USAGE,
-                          "frame %lu was pushed without a picture, or has had "
-                          "its own",
-                          (unsigned long)task->number);
-    if (!shot->err.code && !shot->open)
-        open_job(worker, shot);
-    if (shot->err.code) {
-        *err = shot->err;
-        return false;
+    struct task *found = NULL;
+    for (struct task *t = film->task; t; t = t->next) {
+        if (t->running || !(steps >> t->step & 1) || !may_begin(film, t))
+            continue;
+        if (t->step == STEP_TRACE)
+            return t;
+        found = found ? found : t;
     }
-    use_still(worker, shot);
-    return (!shot->traced || filter_shot(worker, task, shot, err)) &&
-           frame_render(&shot->job, shot->traced, err);
+    return found;
 }
 
-static void make_picture(const struct worker *worker, const struct task *task)
+static void render(struct worker *worker, struct shot *shot,
+                   const struct task *task)
 {
     struct result *result = task->result;
-    struct shot *shot = find_shot(worker->film, task->number);
-    if (render_shot(worker, task, shot, &result->err)) {
+    if (result->err.code)
+        return;
+    if (!shot) {
+        brume_fail(&result->err, BRUME_ERR_USAGE, "frame %lu was not pushed",
+                   (unsigned long)task->number);
+        return;
+    }
+    if (shot_render(shot, worker->still, &result->err)) {
         result->frame = shot->out;
         result->frame.stats.worker = worker->number;
         memset(&shot->out, 0, sizeof shot->out);
     }
-    if (shot)
-        close_job(shot);
+    shot_close(shot);
 }
 
-/* ---- workers ------------------------------------------------------------ */
-
-/* Whether what stands before a task lets it begin: a picture needs what was
- * pushed before it, and what is forgotten must not be in use. */
-static bool may_begin(const struct brume_film *film, const struct task *task)
+static struct shot *take_shot(struct task *task)
 {
-    for (const struct task *t = film->task; t != task; t = t->next) {
-        bool above = t->kind == TASK_FORGET && task->kind != TASK_FORGET &&
-                     task->number >= t->number;
-        if (task->kind == TASK_FORGET ||
-            (task->kind == TASK_ASK && t->kind == TASK_PUSH) ||
-            (t->kind == TASK_FORGET && !above))
-            return false;
-    }
-    return true;
+    struct shot *shot = task->shot;
+    task->shot = NULL;
+    return shot;
 }
 
-static struct task *next_task(const struct brume_film *film)
+static void do_step(struct lane *lane, struct task *task)
 {
-    struct task *task = film->task;
-    while (task && (task->running || !may_begin(film, task)))
-        task = task->next;
-    return task;
-}
-
-static void do_task(const struct worker *worker, struct task *task)
-{
-    switch (task->kind) {
-    case TASK_PUSH:
-        push(worker, task->shot);
+    struct worker *worker = lane->worker;
+    struct shots *shots = &worker->film->shots;
+    if (task->step == STEP_PREPARE)
+        shots_add(shots, take_shot(task));
+    struct shot *shot = shots_find(shots, task->number);
+    switch (task->step) {
+    case STEP_PREPARE:
+        shot_prepare(shot, worker->still);
         break;
-    case TASK_FORGET:
-        forget(worker->film, task->number);
+    case STEP_TRACE:
+        shot_trace(shots, shot, worker->still);
         break;
-    case TASK_ASK:
-        make_picture(worker, task);
+    case STEP_FILTER:
+        if (shot)
+            shot_filter(shots, shot, task->first, task->last, &lane->scratch,
+                        &task->result->err);
+        break;
+    case STEP_RENDER:
+        render(worker, shot, task);
+        break;
+    case STEP_FORGET:
+        shots_forget(shots, task->number);
         break;
     }
 }
 
-/* Takes a task that is done off the list; others may wait for it. */
-static void finish_task(struct brume_film *film, struct task *task)
+static void take_off(struct brume_film *film, struct task *task)
 {
-    void *at = &film->task;
-    while (*(void **)at != task)
-        at = *(void **)at;
-    *(void **)at = task->next;
+    struct task **at = &film->task;
+    while (*at != task)
+        at = &(*at)->next;
+    *at = task->next;
+}
+
+/* Others may wait for it, or for what comes next of the task. */
+static void finish_step(struct brume_film *film, struct task *task)
+{
+    bool last = task->step == task->end;
+    pthread_cond_broadcast(&film->work);
+    task->running = false;
+    if (!last) {
+        task->step++;
+        return;
+    }
+    take_off(film, task);
     if (task->result) {
         task->result->ready = true;
         pthread_cond_signal(&film->news);
     }
-    pthread_cond_broadcast(&film->work);
     free(task);
 }
 
-static void *run(void *context)
+/* ---- workers ------------------------------------------------------------ */
+
+static void work(struct lane *lane)
 {
-    struct worker *worker = context;
-    struct brume_film *film = worker->film;
-    struct task *task = NULL;
-    struct filter_scratch scratch = {.desk = NULL};
-    worker->scratch = &scratch;
-    frame_use_device(worker->number);
+    struct brume_film *film = lane->worker->film;
     pthread_mutex_lock(&film->lock);
     while (!film->quit) {
-        task = next_task(film);
+        struct task *task = next_task(film, lane->steps);
         if (!task) {
             pthread_cond_wait(&film->work, &film->lock);
             continue;
         }
         task->running = true;
         pthread_mutex_unlock(&film->lock);
-        do_task(worker, task);
+        do_step(lane, task);
         pthread_mutex_lock(&film->lock);
-        finish_task(film, task);
+        finish_step(film, task);
     }
     pthread_mutex_unlock(&film->lock);
-    filter_scratch_release(&scratch);
+    filter_scratch_release(&lane->scratch);
+}
+
+static void *run_lane(void *lane)
+{
+    work(lane);
+    return NULL;
+}
+
+/* The first lane's thread, which starts the others. What these can't do it
+ * does itself. */
+static void *run_worker(void *context)
+{
+    static const unsigned steps[LANES] = {
+        1u << STEP_TRACE | 1u << STEP_RENDER,
+        1u << STEP_PREPARE,
+        1u << STEP_FILTER | 1u << STEP_FORGET,
+    };
+    struct worker *worker = context;
+    struct lane *first = worker->lane;
+    int lanes = 1;
+    for (int i = 0; i < LANES; i++)
+        worker->lane[i] = (struct lane){.worker = worker, .steps = steps[i]};
+    while (lanes < LANES && !worker->film->serial &&
+           pthread_create(&worker->lane[lanes].thread, NULL, run_lane,
+                          &worker->lane[lanes]) == 0)
+        lanes++;
+    for (int i = lanes; i < LANES; i++)
+        first->steps |= steps[i];
+    frame_use_device(worker->number);
+    work(first);
+    for (int i = 1; i < lanes; i++)
+        pthread_join(worker->lane[i].thread, NULL);
     brume_still_free(worker->still);
     return NULL;
 }
@@ -410,7 +301,7 @@ static bool start_one(struct brume_film *film, struct brume_error *err)
     *worker = (struct worker){.film = film, .number = film->workers};
     if (film->workers > 0 && !(worker->still = brume_still_new(err)))
         return false;
-    int reason = pthread_create(&worker->thread, NULL, run, worker);
+    int reason = pthread_create(&worker->thread, NULL, run_worker, worker);
     film->workers += reason == 0;
     if (reason == 0)
         return true;
@@ -421,10 +312,11 @@ static bool start_one(struct brume_film *film, struct brume_error *err)
 }
 
 /* Signals are for the caller's thread. */
-static bool start(struct brume_film *film, struct brume_error *err)
+static bool start(struct brume_film *film, bool serial, struct brume_error *err)
 {
     sigset_t all, before;
     int count = film->wanted;
+    film->serial = serial;
     film->worker = memory_new((size_t)count, sizeof *film->worker, err);
     bool good = film->worker;
     sigfillset(&all);
@@ -446,6 +338,7 @@ struct brume_film *brume_film_new(const struct brume_film_events *events,
     if (events)
         film->events = *events;
     film->wanted = 1;
+    shots_init(&film->shots);
     pthread_mutex_init(&film->lock, NULL);
     pthread_cond_init(&film->work, NULL);
     pthread_cond_init(&film->news, NULL);
@@ -466,10 +359,11 @@ bool brume_film_workers(struct brume_film *film, int count,
     return true;
 }
 
-static void free_task(struct brume_film *film, struct task *task)
+/* One that was not begun. */
+static void free_task(struct task *task)
 {
     if (task->shot)
-        free_shot(film, task->shot);
+        shot_free(task->shot);
     free(task);
 }
 
@@ -492,9 +386,8 @@ void brume_film_free(struct brume_film *film)
         return;
     stop_workers(film);
     while ((item = take_first(&film->task)))
-        free_task(film, item);
-    while ((item = take_first(&film->shot)))
-        free_shot(film, item);
+        free_task(item);
+    shots_release(&film->shots);
     while ((item = take_first(&film->warning)))
         free(item);
     while ((item = take_first(&film->result))) {
@@ -539,7 +432,7 @@ static void put(struct brume_film *film, struct task *task)
         append(&film->result, task->result);
         film->asked++;
     }
-    pthread_cond_signal(&film->work);
+    pthread_cond_broadcast(&film->work);
     pthread_mutex_unlock(&film->lock);
 }
 
@@ -549,7 +442,8 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
 {
     struct task *task = memory_new(1, sizeof *task, err);
     struct shot *shot = memory_new(1, sizeof *shot, err);
-    if (!task || !shot || (film->workers == 0 && !start(film, err))) {
+    bool serial = options->threads == 1;
+    if (!task || !shot || (film->workers == 0 && !start(film, serial, err))) {
         brume_scene_free(scene);
         free(task);
         free(shot);
@@ -563,7 +457,8 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
     shot->options.progress = on_progress;
     shot->options.warn = on_warn;
     shot->options.user = film;
-    task->kind = TASK_PUSH;
+    task->step = STEP_PREPARE;
+    task->end = brume_film_reach(options) > 0 ? STEP_TRACE : STEP_PREPARE;
     task->number = shot->number;
     task->shot = shot;
     put(film, task);
@@ -580,7 +475,8 @@ bool brume_film_ask(struct brume_film *film, uint32_t frame, uint32_t first,
         free(result);
         return false;
     }
-    *task = (struct task){.kind = TASK_ASK,
+    *task = (struct task){.step = STEP_FILTER,
+                          .end = STEP_RENDER,
                           .number = frame,
                           .first = first,
                           .last = last,
@@ -595,7 +491,7 @@ bool brume_film_forget(struct brume_film *film, uint32_t below,
     struct task *task = memory_new(1, sizeof *task, err);
     if (!task)
         return false;
-    task->kind = TASK_FORGET;
+    task->step = task->end = STEP_FORGET;
     task->number = below;
     put(film, task);
     return true;

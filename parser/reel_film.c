@@ -26,8 +26,8 @@ struct order {
     struct parse_origins origins; /* of all frames within its reach      */
 };
 
-/* One picture more is asked for than are rendered at once. */
-enum { MOST_ORDERS = BRUME_MAX_WORKERS + 1 };
+/* At most, see orders_ahead. */
+enum { MOST_ORDERS = 2 * BRUME_MAX_WORKERS + 1 };
 
 struct film_run {
     struct reel *reel;
@@ -412,6 +412,14 @@ static enum brume_code leave_out(struct reel *reel, int number)
     return BRUME_OK;
 }
 
+/* Pictures asked for beside the one that is waited for: for each that is
+ * rendered one that is prepared, and where fields are filtered one more, whose
+ * field is traced before the picture of the one before. */
+static int orders_ahead(const struct film_run *run, int reach)
+{
+    return reach > 0 ? 2 * run->workers : run->workers;
+}
+
 static enum brume_code run_frame(struct film_run *run, int number)
 {
     struct reel *reel = run->reel;
@@ -429,7 +437,8 @@ static enum brume_code run_frame(struct film_run *run, int number)
     if (!add_order(run, find_reading(run, number), &err) ||
         !forget_below(run, (int64_t)number + reel->frames.step - reach, &err))
         return reel_fail(reel, &err);
-    return run->orders <= run->workers ? BRUME_OK : finish_order(run);
+    return run->orders <= orders_ahead(run, reach) ? BRUME_OK
+                                                   : finish_order(run);
 }
 
 /* What was asked for before a frame that failed is finished. */

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Whether reading and writing hide behind rendering: the time that a film
 takes over the sum of what its frames' preparing, photons, filter and sampling
-take. Usage: overlap.py BRUME WORD..."""
+take; steps of different frames overlap too, so that these may be more than all
+of it. Usage: overlap.py BRUME WORD..."""
 import json
 import subprocess
 import sys

@@ -98,6 +98,9 @@ static void workers__have_the_pictures_of_one(void **state)
         struct brume_options o = options(filter[i].taps, filter[i].adaptive);
         make_film(o, 1, &one);
         assert_int_equal(one.frames[0], FRAMES);
+        o.threads = 3; /* one and one; the steps of frames overlap */
+        make_film(o, 1, &many);
+        assert_memory_equal(one.pixel, many.pixel, sizeof one.pixel);
         for (int workers = 2; workers <= 5; workers += 3) {
             int busy = 0;
             make_film(o, workers, &many);
@@ -130,6 +133,57 @@ static bool stop_it(void *user, const struct brume_progress *progress)
     (void)progress;
     ++*(int *)user;
     return false;
+}
+
+/* A scene of whose preparing something is told. */
+static brume_scene *with_nothing(void)
+{
+    struct brume_medium m = truth_medium(0.3, 3.0, 0.0);
+    struct brume_shape ball = BRUME_SHAPE_INIT;
+    brume_scene *s = fog_ball(0.0);
+    ball.radius = 0.0;
+    truth_fill(s, ball, &m);
+    return s;
+}
+
+struct told {
+    bool rendering, prepared;
+};
+
+static bool until_prepared(void *user, const struct brume_progress *progress)
+{
+    struct told *told = user;
+    told->rendering = told->rendering || strcmp(progress->stage, "path") == 0;
+    return !(told->rendering && told->prepared);
+}
+
+static void on_warn(void *user, const char *text)
+{
+    struct told *told = user;
+    assert_non_null(strstr(text, "without extent"));
+    told->prepared = true;
+}
+
+/* If not, the first picture is finished before the second is prepared. */
+static void workers__prepare_while_they_render(void **state)
+{
+    (void)state;
+    struct told told = {false, false};
+    struct brume_error err = {0};
+    struct brume_frame f;
+    struct brume_film_events events = {&told, until_prepared, on_warn};
+    struct brume_options o = options(1, false);
+    struct brume_film *film = brume_film_new(&events, truth_error());
+    o.threads = 2;
+    o.spp = 1 << 17;
+    push(film, &o, 0);
+    assert_true(brume_film_ask(film, 0, 0, 1, truth_error()));
+    o.frame = 1;
+    assert_true(brume_film_push(film, with_nothing(), &o, true, truth_error()));
+    assert_false(brume_film_next(film, &f, &err));
+    assert_int_equal(err.code, BRUME_STOPPED);
+    assert_true(told.rendering && told.prepared);
+    brume_film_free(film);
 }
 
 static void workers__stop_all(void **state)
@@ -167,6 +221,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(workers__have_the_pictures_of_one),
         cmocka_unit_test(workers__are_chosen_before_the_first_frame),
+        cmocka_unit_test(workers__prepare_while_they_render),
         cmocka_unit_test(workers__stop_all),
         cmocka_unit_test(workers__devices_need_a_gpu),
     };

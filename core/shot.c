@@ -1,0 +1,211 @@
+#include "core/shot.h"
+#include <stdlib.h>
+#include "lib/timer.h"
+
+void shots_init(struct shots *shots)
+{
+    *shots = (struct shots){.first = NULL};
+    pthread_mutex_init(&shots->lock, NULL);
+}
+
+void shots_release(struct shots *shots)
+{
+    while (shots->first) {
+        struct shot *shot = shots->first;
+        shots->first = shot->next;
+        shot_free(shot);
+    }
+    pthread_mutex_destroy(&shots->lock);
+}
+
+void shots_add(struct shots *shots, struct shot *shot)
+{
+    pthread_mutex_lock(&shots->lock);
+    shot->next = shots->first;
+    shots->first = shot;
+    pthread_mutex_unlock(&shots->lock);
+}
+
+struct shot *shots_find(struct shots *shots, uint32_t number)
+{
+    pthread_mutex_lock(&shots->lock);
+    struct shot *shot = shots->first;
+    while (shot && shot->number != number)
+        shot = shot->next;
+    pthread_mutex_unlock(&shots->lock);
+    return shot;
+}
+
+static uint64_t ring_bytes(const struct shots *shots)
+{
+    return __atomic_load_n(&shots->ring, __ATOMIC_RELAXED);
+}
+
+/* Takes the shots below a number off the list. */
+static struct shot *take_below(struct shots *shots, uint32_t below)
+{
+    struct shot *gone = NULL;
+    pthread_mutex_lock(&shots->lock);
+    struct shot **at = &shots->first;
+    while (*at) {
+        struct shot *shot = *at;
+        if (shot->number >= below) {
+            at = &shot->next;
+            continue;
+        }
+        *at = shot->next;
+        shot->next = gone;
+        gone = shot;
+    }
+    pthread_mutex_unlock(&shots->lock);
+    return gone;
+}
+
+void shots_forget(struct shots *shots, uint32_t below)
+{
+    struct shot *gone = take_below(shots, below);
+    while (gone) {
+        struct shot *next = gone->next;
+        if (gone->traced)
+            __atomic_fetch_sub(&shots->ring, filter_bytes(&gone->field),
+                               __ATOMIC_RELAXED);
+        shot_free(gone);
+        gone = next;
+    }
+}
+
+void shot_close(struct shot *shot)
+{
+    if (shot->open)
+        frame_close(&shot->job);
+    shot->open = false;
+    brume_scene_free(shot->scene);
+    shot->scene = NULL;
+}
+
+void shot_free(struct shot *shot)
+{
+    shot_close(shot);
+    if (shot->traced)
+        filter_release(&shot->field);
+    brume_frame_free(&shot->out);
+    free(shot);
+}
+
+static void use_still(struct shot *shot, struct brume_still *still)
+{
+    if (shot->still)
+        shot->options.still = still ? still : shot->still;
+}
+
+void shot_prepare(struct shot *shot, struct brume_still *still)
+{
+    use_still(shot, still);
+    shot->open = true;
+    bool good = frame_open(&shot->job, shot->scene, &shot->options, &shot->out,
+                           &shot->err);
+    brume_scene_free(shot->scene);
+    shot->scene = NULL;
+    if (!good)
+        shot_close(shot);
+}
+
+/* A frame whose scene has no field has none to keep. */
+static bool keep_field(struct shots *shots, struct shot *shot)
+{
+    struct frame_job *job = &shot->job;
+    if (!plan_stages(job->flat, &shot->options).photons)
+        return true;
+    job->held = ring_bytes(shots);
+    if (!frame_trace(job, &shot->err) ||
+        !filter_keep(job->flat, job->power, &shot->field, &shot->err))
+        return false;
+    shot->traced = true;
+    __atomic_fetch_add(&shots->ring, filter_bytes(&shot->field),
+                       __ATOMIC_RELAXED);
+    return true;
+}
+
+void shot_trace(struct shots *shots, struct shot *shot,
+                struct brume_still *still)
+{
+    if (!shot->open)
+        return;
+    use_still(shot, still);
+    if (!keep_field(shots, shot) || !shot->picture)
+        shot_close(shot);
+}
+
+/* The fields within reach; false with err set where a frame failed. */
+static bool list_fields(struct shots *shots, const struct shot *shot,
+                        uint32_t first, uint32_t last, int reach,
+                        const struct filter_field **fields,
+                        struct brume_error *err)
+{
+    for (int k = -reach; k <= reach; k++) {
+        int64_t number = (int64_t)shot->number + k;
+        fields[k + reach] = NULL;
+        if (number < first || number > last)
+            continue;
+        const struct shot *other = shots_find(shots, (uint32_t)number);
+        if (!other)
+            return brume_fail(err, BRUME_ERR_USAGE,
+                              "frame %lld, which is within the reach of frame "
+                              "%lu, was not pushed",
+                              (long long)number, (unsigned long)shot->number);
+        if (other->err.code) {
+            *err = other->err;
+            return false;
+        }
+        if (other->traced)
+            fields[k + reach] = &other->field;
+    }
+    return true;
+}
+
+static bool run_filter(struct shot *shot,
+                       const struct filter_field *const *fields, int reach,
+                       struct filter_scratch *scratch, struct brume_error *err)
+{
+    const struct brume_options *o = &shot->options;
+    if (o->photons.adaptive)
+        return filter_adapt(shot->job.flat, fields, reach, o->threads, scratch,
+                            err);
+    return filter_mean(shot->job.flat, fields, o->photons.weight, reach,
+                       o->threads, err);
+}
+
+bool shot_filter(struct shots *shots, struct shot *shot, uint32_t first,
+                 uint32_t last, struct filter_scratch *scratch,
+                 struct brume_error *err)
+{
+    const struct filter_field *fields[BRUME_MAX_TAPS];
+    int reach = brume_film_reach(&shot->options);
+    struct brume_photon_stats *stats = &shot->out.stats.photons;
+    double start = timer_seconds();
+    if (!shot->open || !shot->traced)
+        return true;
+    if (!list_fields(shots, shot, first, last, reach, fields, err) ||
+        !run_filter(shot, fields, reach, scratch, err))
+        return false;
+    stats->ring = shot->job.held = ring_bytes(shots);
+    stats->drifts = shot->field.drift != NULL;
+    stats->seconds_filter = timer_seconds() - start;
+    return true;
+}
+
+bool shot_render(struct shot *shot, struct brume_still *still,
+                 struct brume_error *err)
+{
+    if (shot->err.code) {
+        *err = shot->err;
+        return false;
+    }
+    if (!shot->open)
+        return brume_fail(err, BRUME_ERR_USAGE,
+                          "frame %lu was pushed without a picture, or has had "
+                          "its own",
+                          (unsigned long)shot->number);
+    use_still(shot, still);
+    return frame_render(&shot->job, shot->traced, err);
+}
