@@ -13,7 +13,7 @@ static void ball_brick(void *context, size_t index, int thread)
     const struct cpu_state *s = context;
     const flat_scene *v = &s->frame.flat->view;
     for (int i = 0; i < 512 && v->radiance_slots[index] >= 0; i++)
-        ball_cell_run(v, index, i, s->frame.flat->radiance);
+        ball_cell_run(v, index, i, s->frame.flat->radiance, team_alone());
 }
 
 static void light_brick(void *context, size_t index, int thread)

@@ -365,17 +365,33 @@ list_cells(const __grid_constant__ cell_job job)
                        static_cast<unsigned>(cell);
 }
 
+/* The threads that find what is in a ball: a warp. Of several media, which are
+ * found by lists of them, each thread has a ball of its own. */
+__device__ __forceinline__ team ball_team()
+{
+    int lane = threadIdx.x % warp_size;
+    return SCENE_SOLE ? team{lane, warp_size} : team_alone();
+}
+
+/* The next of the list for each team. */
+__device__ __forceinline__ unsigned take_ball(const cell_job *job, team t)
+{
+    unsigned i = take_numbers(&job->queue->taken, t.place == 0);
+    return t.size > 1 ? __shfl_sync(~0u, i, 0) : i;
+}
+
 /* Threads that stay take them: their work is uneven, and what lies beside is
  * often empty. */
 __global__ void __launch_bounds__(cells_at_once, 4)
 ball_cells(const __grid_constant__ cell_job job)
 {
     unsigned i, n = job.queue->listed;
+    team t = ball_team();
     do {
-        i = take_numbers(&job.queue->taken, true);
+        i = take_ball(&job, t);
         if (i < n)
             ball_cell_run(&job.scene, job.list[i] / 512,
-                          static_cast<int>(job.list[i] % 512), job.cells);
+                          static_cast<int>(job.list[i] % 512), job.cells, t);
     } while (__any_sync(~0u, i < n));
 }
 

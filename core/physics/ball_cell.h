@@ -81,35 +81,132 @@ HD float ball_thickness(const flat_scene *s, const ball_media *b)
     return sum;
 }
 
-/* Whether the mean of n pairs is good to a tenth. */
-HD bool ball_is_known(int n, float sum, float squares)
+/* What is to be known of a ball: the mean of its media, where something is
+ * known to scatter in it; or which of them scatter there, and how they share
+ * it. */
+enum { BALL_MEAN, BALL_SHARES };
+
+/* What some of its points tell. */
+typedef struct {
+    ball_media sum;
+    int points;
+    float thickness, squares;   /* of whole pairs                          */
+    bool known;
+} ball_probe;
+
+/* Whether the mean is good to a tenth. */
+HD bool ball_is_known(const ball_probe *p)
 {
-    return (float)n * squares - sum * sum <= 0.01f * (float)(n - 1) * sum * sum;
+    float n = (float)(p->points / 2), sum = p->thickness;
+    return n * p->squares - sum * sum <= 0.01f * (n - 1.0f) * sum * sum;
 }
 
-/* The media of the field's ball around x. `surely`: something is known to
- * scatter in it. */
-HD ball_media ball_media_at(const flat_scene *s, vec3 x, bool surely)
+/* A medium that is alone has all of it wherever it is found, unless it has
+ * colours. */
+HD bool ball_is_shared(const flat_scene *s)
 {
-    ball_media b;
-    int n = 0, most = surely ? BALL_MOST_PAIRS : BALL_PAIRS;
-    float sum = 0.0f, squares = 0.0f;
-    b.count = 0;
-    do {
-        vec3 off = ball_offset(n++);
-        ball_add_point(s, &b, vec3_mad(x, s->field.radius, off));
-        ball_add_point(s, &b, vec3_mad(x, -s->field.radius, off));
-        float now = ball_thickness(s, &b), pair = now - sum;
-        sum = now;
-        squares += pair * pair;
-    } while (n < BALL_PAIRS ||
-             (n < most && (!(sum > 0.0f) || !ball_is_known(n, sum, squares))));
-    for (int i = 0; i < part_bound(b.count); i++) {
-        rgb *density = &b.density[part_place(i)];
-        *density = rgb_scale(*density, 0.5f / (float)n);
+    return s->media_count > 1 || scene_medium(s, 0)->functions;
+}
+
+/* Whether its points are enough. */
+HD bool ball_suffices(const flat_scene *s, const ball_probe *p, int what)
+{
+    int pairs = p->points / 2;
+    if (what == BALL_SHARES)
+        return pairs >= BALL_PAIRS ||
+               (p->thickness > 1e-30f && !ball_is_shared(s));
+    return pairs >= BALL_MOST_PAIRS ||
+           (pairs >= BALL_PAIRS && p->thickness > 0.0f && ball_is_known(p));
+}
+
+/* A point of the ball; each pair has two. */
+HD vec3 ball_place(const flat_scene *s, vec3 x, int i)
+{
+    float r = s->field.radius;
+    return vec3_mad(x, i & 1 ? -r : r, ball_offset(i >> 1));
+}
+
+/* Adds a pair. */
+HD void ball_add_pair(const flat_scene *s, vec3 x, int what, ball_probe *p)
+{
+    ball_add_point(s, &p->sum, ball_place(s, x, p->points));
+    ball_add_point(s, &p->sum, ball_place(s, x, p->points + 1));
+    float now = ball_thickness(s, &p->sum), pair = now - p->thickness;
+    p->points += 2;
+    p->thickness = now;
+    p->squares += pair * pair;
+    p->known = ball_suffices(s, p, what);
+}
+
+/* What the pairs up to that of its place tell each of half a team, of whose
+ * points each has found the density at one: as one thread would add them, so
+ * that the bits are the same. */
+HD ball_probe ball_probe_until(const flat_scene *s, team t, float density,
+                               int what, const ball_probe *before)
+{
+    ball_probe p = *before;
+    float sum = before->sum.density[0].r, squares = before->squares;
+    for (int i = 0; i < t.size; i++) {
+        sum += team_float(t, density, i);
+        if (i == 2 * t.place + 1)
+            p.sum.density[0] = rgb_gray(sum);
     }
-    b.thickness = ball_thickness(s, &b);
-    return b;
+    p.thickness = ball_thickness(s, &p.sum);
+    float last = team_float(t, p.thickness, t.place - 1);
+    float pair = p.thickness - (t.place > 0 ? last : before->thickness);
+    for (int i = 0; i < t.size / 2; i++) {
+        squares += team_float(t, pair * pair, i);
+        if (i == t.place)
+            p.squares = squares;
+    }
+    p.points += 2 * t.place + 2;
+    p.known = t.place < t.size / 2 && ball_suffices(s, &p, what);
+    return p;
+}
+
+/* Adds as many points as a team has threads, each of which looks up one, or
+ * fewer if they are enough. There is one medium, and its density is one
+ * number. */
+HD void ball_add_pairs(const flat_scene *s, vec3 x, int what, team t,
+                       ball_probe *p)
+{
+    ball_media at;
+    at.count = 0;
+    at.density[0] = rgb_gray(0.0f);
+    ball_add_point(s, &at, ball_place(s, x, p->points + t.place));
+    if (p->sum.count == 0 && team_any(t, at.count > 0)) {
+        p->sum.count = 1;
+        p->sum.medium[0] = 0;
+    }
+    ball_probe until = ball_probe_until(s, t, at.density[0].r, what, p);
+    int last = team_first(t, until.known);
+    p->known = last < t.size;
+    last = p->known ? last : t.size / 2 - 1;
+    p->points += 2 * last + 2;
+    p->sum.density[0] = rgb_gray(team_float(t, until.sum.density[0].r, last));
+    p->thickness = team_float(t, until.thickness, last);
+    p->squares = team_float(t, until.squares, last);
+}
+
+/* The media of the field's ball around x. */
+HD ball_media ball_media_at(const flat_scene *s, vec3 x, int what, team t)
+{
+    ball_probe p;
+    p.sum.count = p.points = 0;
+    p.sum.density[0] = rgb_gray(0.0f);
+    p.thickness = p.squares = 0.0f;
+    p.known = false;
+    while (!p.known)
+        if (t.size > 1)
+            ball_add_pairs(s, x, what, t, &p);
+        else
+            ball_add_pair(s, x, what, &p);
+    for (int i = 0; i < part_bound(p.sum.count); i++) {
+        rgb *density = &p.sum.density[part_place(i)];
+        *density = rgb_scale(*density, 1.0f / (float)p.points);
+    }
+    p.sum.thickness = ball_thickness(s, &p.sum);
+    return p.sum;
 }
 
 /* What the media of the ball scatter along d of light from wi, per light C and
@@ -131,12 +228,12 @@ HD rgb ball_scattered(const flat_scene *s, const ball_media *b, vec3 d,
 }
 
 /* Power of births that is to be expected, over the volume of the ball. */
-HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x)
+HD float ball_births(const flat_scene *s, const ball_media *b, vec3 x, team t)
 {
     float sum = 0.0f;
     for (uint64_t i = 0; i < s->glows_count; i++)
         sum += s->glows[i].power *
-               ball_glow(s, &s->glows[i], x, s->field.radius);
+               ball_glow(s, &s->glows[i], x, s->field.radius, t);
     field_point at = field_point_make(s, -1, x);
     for (int i = 0; i < part_bound(b->count); i++) {
         const flat_medium *m = scene_medium(s, b->medium[part_place(i)]);
@@ -175,8 +272,9 @@ HD bool ball_cell_has(const flat_scene *s, uint64_t brick, int i, float *cells)
 
 /* Turns what is in the ball of cell i of a brick that is there, over its
  * volume: events into those per thickness, births into their number over that
- * which is to be expected. */
-HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells)
+ * which is to be expected. The first of the team writes. */
+HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells,
+                      team t)
 {
     const radiance_lattice *f = &s->field;
     float *out = ball_cell_numbers(s, brick, i, cells);
@@ -184,14 +282,15 @@ HD void ball_cell_run(const flat_scene *s, uint64_t brick, int i, float *cells)
     if (!ball_has_events(out) && !births)
         return;
     vec3 x = radiance_middle(s, brick, i);
-    ball_media b = ball_media_at(s, x, true);
+    ball_media b = ball_media_at(s, x, BALL_MEAN, t);
+    float expected = births ? ball_births(s, &b, x, t) : 0.0f;
     float scale = b.thickness > 0.0f ? 1.0f / b.thickness : 0.0f;
+    if (t.place > 0)
+        return;
     for (int c = 0; c < 3; c++)
         out[c] *= scale;
-    if (!births)
-        return;
-    float expected = ball_births(s, &b, x);
-    out[f->births] = expected > 0.0f ? out[f->births] / expected : 1.0f;
+    if (births)
+        out[f->births] = expected > 0.0f ? out[f->births] / expected : 1.0f;
 }
 
 #endif

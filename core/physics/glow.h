@@ -48,11 +48,16 @@ HD int glow_find_brick(const glow_brick *bricks, uint64_t count, double u)
     return lo;
 }
 
+/* Probability of brick i of a list. */
+HD float glow_share(const glow_brick *list, int64_t i)
+{
+    return list[i].cumulative - (i > 0 ? list[i - 1].cumulative : 0.0f);
+}
+
 HD float glow_brick_probability(const flat_scene *s, const flat_glow *g,
                                 int64_t i)
 {
-    const glow_brick *b = s->glow_bricks + g->first + i;
-    return b->cumulative - (i > 0 ? b[-1].cumulative : 0.0f);
+    return glow_share(s->glow_bricks + g->first, i);
 }
 
 /* Density with which glow_choose takes the point p of this list. */

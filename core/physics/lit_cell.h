@@ -79,7 +79,7 @@ HD void lit_cell(const flat_scene *s, vec3 x, rng random, float *out,
     ball.count = 0;
     ball.thickness = 0.0f;
     if (s->field.ball) {
-        ball = ball_media_at(s, x, false);
+        ball = ball_media_at(s, x, BALL_SHARES, team_alone());
         if (!(ball.thickness > 0.0f))
             return;
     }

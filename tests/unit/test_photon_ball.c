@@ -393,9 +393,41 @@ static void photon_ball__finds_what_is_thick(void **state)
                        &v.media[0], medium_density(&v, &v.media[0], &at)) /
                    PLACES;
         }
-        double found = (double)ball_media_at(&v, x, true).thickness;
+        double found =
+            (double)ball_media_at(&v, x, BALL_MEAN, team_alone()).thickness;
         if (!(found > 0.6 * sum && found < 1.6 * sum))
             fail_msg("ball %d: %g of %g", i, found, sum);
+    }
+    flat_free(flat);
+    brume_scene_free(s);
+}
+
+/* A medium that is alone scatters alike whether all of its ball has been looked
+ * at or a place of it: in every direction, as in the whole ball's mean. */
+static void photon_ball__a_place_tells_of_one_medium(void **state)
+{
+    (void)state;
+    brume_scene *s = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0,
+                                 0.45);
+    struct brume_medium m = truth_medium(0.5, 2.0, 0.6);
+    m.density[0] = add_heap(s, 2.0);
+    m.densities = 1;
+    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
+    struct flat *flat = truth_flat(s);
+    flat_scene v = flat->view;
+    v.field.radius = 0.4f * (float)flat->unit;
+    for (int i = 0; i < 50; i++) {
+        vec3 x = vec3_scale(ball_offset(i), 1.2f * v.field.radius);
+        vec3 d = ball_offset(i + 50), wi = ball_offset(i + 100);
+        d = vec3_scale(d, 1.0f / vec3_length(d));
+        wi = vec3_scale(wi, 1.0f / vec3_length(wi));
+        ball_media mean = ball_media_at(&v, x, BALL_MEAN, team_alone());
+        ball_media some = ball_media_at(&v, x, BALL_SHARES, team_alone());
+        rgb a = ball_scattered(&v, &mean, d, wi);
+        rgb b = ball_scattered(&v, &some, d, wi);
+        if (!(a.r > 0.0f && fabsf(b.r / a.r - 1.0f) < 1e-6f))
+            fail_msg("ball %d: %g, of its mean %g", i, (double)b.r,
+                     (double)a.r);
     }
     flat_free(flat);
     brume_scene_free(s);
@@ -481,7 +513,7 @@ static void photon_ball__lines_tell_what_glows(void **state)
             q[k] = (float)g.origin[k] + 32.0f + 16.0f * (rng_float(&r) - 0.5f);
         vec3 x = affine_point(&g.from_index, vec3_make(q[0], q[1], q[2]));
         double truth = mean_of_places(v, &g, x, radius);
-        double found = (double)ball_glow(v, &g, x, radius);
+        double found = (double)ball_glow(v, &g, x, radius, team_alone());
         /* Sums of floats do not tell what is a millionth of all. */
         if (!(truth > 1e-3))
             continue;
@@ -498,6 +530,7 @@ static void photon_ball__lines_tell_what_glows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photon_ball__a_place_tells_of_one_medium),
         cmocka_unit_test(photon_ball__points_are_the_tables),
         cmocka_unit_test(photon_ball__lines_tell_what_glows),
         cmocka_unit_test(photon_ball__finds_what_is_thick),
