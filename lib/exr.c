@@ -1,5 +1,6 @@
 #include "lib/exr.h"
 #include <errno.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 #include <openexr.h>
 #include "lib/memory.h"
 #include "lib/output.h"
+#include "lib/thread.h"
 
 /* Lines of a block of ZIP compression. The last of its levels that looks no
  * further for better matches takes two thirds of the time of the default one,
@@ -22,6 +24,7 @@ struct session {
     const char *path;
     int fd; /* of the output; -1 when reading          */
     struct brume_error *err;
+    pthread_mutex_t lock; /* of err, where several threads write */
 };
 
 /* ---- what writing and reading share ---- */
@@ -34,8 +37,10 @@ static void on_error(exr_const_context_t context, exr_result_t code,
         !user)
         return;
     struct session *s = user;
+    pthread_mutex_lock(&s->lock);
     brume_fail_file(s->err, s->path, "%s",
                     message ? message : exr_get_default_error_message(code));
+    pthread_mutex_unlock(&s->lock);
 }
 
 /* The error is the callback's where it was called: the first one stays. */
@@ -122,38 +127,101 @@ static void fill_block(const struct image *image, int y,
     }
 }
 
-static bool write_blocks(const struct session *s, exr_context_t context,
-                         const struct image *image, float *block)
+/* A block as it will be in the file. */
+struct packed {
+    void *bytes;
+    uint64_t size;
+    exr_result_t result;
+};
+
+/* Blocks are packed by all threads, and written one after the other. */
+struct packing {
+    exr_context_t context;
+    const struct image *image;
+    struct packed *block;
+    float *room; /* of each thread, for the samples of a block          */
+    size_t samples;
+};
+
+/* In place of the library's writing, for which blocks would have to wait. */
+static exr_result_t keep_packed(exr_encode_pipeline_t *encode)
+{
+    struct packed *to = encode->encoding_user_data;
+    to->size = encode->compressed_bytes;
+    to->bytes = malloc(to->size);
+    if (!to->bytes)
+        return EXR_ERR_OUT_OF_MEMORY;
+    memcpy(to->bytes, encode->compressed_buffer, to->size);
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t pack(const struct packing *p, int y, float *room,
+                         struct packed *to)
 {
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_chunk_info_t chunk = {0};
+    exr_result_t result = exr_write_scanline_chunk_info(p->context, 0, y,
+                                                        &chunk);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_encoding_initialize(p->context, 0, &chunk, &encode);
+    if (result != EXR_ERR_SUCCESS)
+        return result;
+    fill_block(p->image, y, &encode, room);
+    result = exr_encoding_choose_default_routines(p->context, 0, &encode);
+    encode.encoding_user_data = to;
+    encode.yield_until_ready_fn = NULL;
+    encode.write_fn = keep_packed;
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_encoding_run(p->context, 0, &encode);
+    exr_encoding_destroy(p->context, &encode);
+    return result;
+}
+
+static void pack_block(void *context, size_t index, int thread)
+{
+    const struct packing *p = context;
+    float *room = p->room + (size_t)thread * p->samples;
+    struct packed *block = &p->block[index];
+    block->result = pack(p, (int)index * BLOCK_LINES, room, block);
+}
+
+static bool write_packed(const struct session *s, exr_context_t context,
+                         const struct packed *block, size_t count)
+{
     bool ok = true;
-    for (int y = 0; ok && y < image->height; y += BLOCK_LINES) {
-        exr_chunk_info_t chunk = {0};
-        ok = check(s, exr_write_scanline_chunk_info(context, 0, y, &chunk)) &&
-             check(s, y == 0
-                          ? exr_encoding_initialize(context, 0, &chunk, &encode)
-                          : exr_encoding_update(context, 0, &chunk, &encode));
-        if (!ok)
-            break;
-        fill_block(image, y, &encode, block);
-        if (y == 0)
-            ok = check(
-                s, exr_encoding_choose_default_routines(context, 0, &encode));
-        ok = ok && check(s, exr_encoding_run(context, 0, &encode));
+    for (size_t i = 0; ok && i < count; i++)
+        ok = check(s, block[i].result) &&
+             check(s, exr_write_scanline_chunk(context, 0, (int)i * BLOCK_LINES,
+                                               block[i].bytes, block[i].size));
+    return ok;
+}
+
+static bool write_blocks(const struct session *s, exr_context_t context,
+                         const struct image *image, int threads)
+{
+    size_t count = ((size_t)image->height + BLOCK_LINES - 1) / BLOCK_LINES;
+    struct packing p = {.context = context, .image = image};
+    threads = threads > 0 ? threads : thread_processors();
+    if (!memory_multiply((size_t)image->width * BLOCK_LINES, image->channels,
+                         &p.samples))
+        return brume_fail(s->err, BRUME_ERR_MEMORY, "too many channels");
+    p.block = memory_new(count, sizeof *p.block, s->err);
+    p.room = memory_new((size_t)threads * sizeof *p.room, p.samples, s->err);
+    bool ok = p.block && p.room;
+    if (ok) {
+        parallel_for(threads, count, pack_block, &p, NULL);
+        ok = write_packed(s, context, p.block, count);
     }
-    exr_encoding_destroy(context, &encode);
+    for (size_t i = 0; p.block && i < count; i++)
+        free(p.block[i].bytes);
+    free(p.block);
+    free(p.room);
     return ok;
 }
 
 static bool write_file(struct session *s, const struct image *image,
-                       const struct exr_text *text, size_t texts)
+                       const struct exr_text *text, size_t texts, int threads)
 {
-    size_t samples = (size_t)image->width * BLOCK_LINES;
-    if (!memory_multiply(samples, image->channels, &samples))
-        return brume_fail(s->err, BRUME_ERR_MEMORY, "too many channels");
-    float *block = memory_new(samples, sizeof *block, s->err);
-    if (!block)
-        return false;
     exr_context_initializer_t init = initializer(s);
     init.write_fn = write_bytes;
     init.zip_level = ZIP_LEVEL;
@@ -161,15 +229,14 @@ static bool write_file(struct session *s, const struct image *image,
     bool ok = check(s, exr_start_write(&context, s->path,
                                        EXR_WRITE_FILE_DIRECTLY, &init)) &&
               write_header(s, context, image, text, texts) &&
-              write_blocks(s, context, image, block);
+              write_blocks(s, context, image, threads);
     if (context)
         ok = check(s, exr_finish(&context)) && ok;
-    free(block);
     return ok;
 }
 
 bool exr_save(const char *path, const struct image *image,
-              const struct exr_text *text, size_t texts,
+              const struct exr_text *text, size_t texts, int threads,
               struct brume_error *err)
 {
     if (!image_check(image, err))
@@ -177,8 +244,9 @@ bool exr_save(const char *path, const struct image *image,
     struct output *o = output_open(path, err);
     if (!o)
         return false;
-    struct session s = {path, fileno(output_stream(o)), err};
-    return output_close(o, write_file(&s, image, text, texts), err);
+    struct session s = {path, fileno(output_stream(o)), err,
+                        PTHREAD_MUTEX_INITIALIZER};
+    return output_close(o, write_file(&s, image, text, texts, threads), err);
 }
 
 /* ---- reading ---- */
@@ -360,7 +428,7 @@ static bool read_pixels(const struct session *s, exr_context_t context,
 
 struct exr_picture *exr_load(const char *path, struct brume_error *err)
 {
-    struct session s = {path, -1, err};
+    struct session s = {path, -1, err, PTHREAD_MUTEX_INITIALIZER};
     exr_context_initializer_t init = initializer(&s);
     exr_context_t context = NULL;
     struct exr_picture *picture = memory_new(1, sizeof *picture, err);
@@ -378,7 +446,7 @@ struct exr_picture *exr_load(const char *path, struct brume_error *err)
 bool exr_text_of(const char *path, const char *name, char *out, size_t size)
 {
     struct brume_error err = {0};
-    struct session s = {path, -1, &err};
+    struct session s = {path, -1, &err, PTHREAD_MUTEX_INITIALIZER};
     exr_context_initializer_t init = initializer(&s);
     exr_context_t context = NULL;
     int32_t length = 0;

@@ -14,10 +14,11 @@ struct exr_text {           /* a string of the file's header              */
 };
 
 /* Writes a single-part scanline file: all channels 32-bit float, ZIP in
- * blocks of 16 lines, data window = display window. The bytes depend on the
- * arguments (and zlib) alone. The file appears only when it is complete. */
+ * blocks of 16 lines, data window = display window, packed by so many threads
+ * (0: as many as processors). The bytes depend on the other arguments (and
+ * zlib) alone. The file appears only when it is complete. */
 bool exr_save(const char *path, const struct image *image,
-              const struct exr_text *text, size_t texts,
+              const struct exr_text *text, size_t texts, int threads,
               struct brume_error *err);
 
 struct exr_picture {

@@ -297,18 +297,23 @@ static void compact_bricks(struct grid *g)
     free(place);
 }
 
+/* Numbers that are finite: fminf would be a call for each. */
+static void widen(struct grid *g, const float *x, size_t count)
+{
+    float low = g->lowest, high = g->highest;
+    for (size_t i = 0; i < count; i++) {
+        low = x[i] < low ? x[i] : low;
+        high = x[i] > high ? x[i] : high;
+    }
+    g->lowest = low;
+    g->highest = high;
+}
+
 static void find_range(struct grid *g)
 {
     g->lowest = g->highest = g->tile[0];
-    for (size_t k = 1; k < g->tiles; k++) {
-        g->lowest = fminf(g->lowest, g->tile[k]);
-        g->highest = fmaxf(g->highest, g->tile[k]);
-    }
-    size_t voxels = g->stored * GRID_BRICK_VOXELS;
-    for (size_t v = 0; v < voxels; v++) {
-        g->lowest = fminf(g->lowest, g->voxel[v]);
-        g->highest = fmaxf(g->highest, g->voxel[v]);
-    }
+    widen(g, g->tile, g->tiles);
+    widen(g, g->voxel, g->stored * GRID_BRICK_VOXELS);
 }
 
 /* The capacity that grow() counts on for so many items. */

@@ -252,10 +252,12 @@ bool copy_tiles(const Tree &tree, int part, grid &g, brume_error *err)
     tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
     for (; tile; ++tile) {
         const float value = part_of(tile.getValue(), part);
+        if (value == g.tile[0])
+            continue;
         CoordBBox box;
         tile.getBoundingBox(box);
         box.intersect(whole);
-        if (value == g.tile[0] || box.empty())
+        if (box.empty())
             continue;
         const Coord a = brick_of(g, box.min()), b = brick_of(g, box.max());
         for (int z = a.z(); z <= b.z(); z++)

@@ -67,7 +67,8 @@ static bool write_exr_stream(const struct picture *picture,
         return brume_fail(err, BRUME_ERR_FILE, "can't make the file '%s': %s",
                           path, strerror(errno));
     close(fd);
-    bool ok = exr_save(path, image, picture->text, picture->texts, err);
+    bool ok = exr_save(path, image, picture->text, picture->texts,
+                       picture->threads, err);
     FILE *from = ok ? fopen(path, "rb") : NULL;
     if (ok && !from)
         ok = brume_fail(err, BRUME_ERR_FILE, "can't open '%s': %s", path,
@@ -87,8 +88,9 @@ static bool write_image(const struct picture *p, const struct image *image,
     int bits = p->bits > 8 ? 16 : 8;
     switch (p->format) {
     case OPTIONS_FORMAT_EXR:
-        return stream ? write_exr_stream(p, image, out, err)
-                      : exr_save(path, image, p->text, p->texts, err);
+        return stream
+                   ? write_exr_stream(p, image, out, err)
+                   : exr_save(path, image, p->text, p->texts, p->threads, err);
     case OPTIONS_FORMAT_PPM:
         return stream ? ppm_save_stream(out, name, image, bits, err)
                       : ppm_save(path, image, bits, err);

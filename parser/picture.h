@@ -13,6 +13,7 @@ struct picture {
     bool alpha;                     /* the frame is without its background */
     const struct exr_text *text;    /* for the header of an EXR            */
     size_t texts;
+    int threads;                    /* 0: as many as processors            */
 };
 
 /* An EXR has R, G, B (linear radiance), opacity.R, opacity.G, opacity.B, Z,

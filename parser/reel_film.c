@@ -86,6 +86,7 @@ static bool write_frame(struct reel *reel, const struct brume_frame *frame,
         .alpha = options->alpha,
         .text = text,
         .texts = describe(reel, record, text, value),
+        .threads = options->threads,
     };
     if (!options->to_file)
         return true;

@@ -28,7 +28,7 @@ static void write_picture(enum options_format format, int bits, bool alpha,
                           const char *path, FILE *out)
 {
     struct exr_text text = {"scene", "s.pov"};
-    struct picture picture = {&frame, format, bits, alpha, &text, 1};
+    struct picture picture = {&frame, format, bits, alpha, &text, 1, 1};
     struct brume_error err = {0};
     assert_true(picture_write(&picture, path, out, &err));
 }

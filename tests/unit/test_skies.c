@@ -102,7 +102,7 @@ static void save(const char *name, int width, int height, int channels,
                                       1, width};
     struct image image = {width, height, 0, 0,
                           width, height, c, (size_t)channels};
-    assert_true(exr_save(name, &image, NULL, 0, truth_error()));
+    assert_true(exr_save(name, &image, NULL, 0, 1, truth_error()));
 }
 
 enum { COLUMNS = 8, ROWS = 4 };
