@@ -198,7 +198,7 @@ def filter_rows(films):
     of three, one after the other. `alone`: while one runs, in another thread
     than the one that works with the device."""
     short, long, times, alone = 12, 40, {}, {}
-    ways = {"off": None, "3": 0.05, "5": 0.05, "adaptive": 0.1}
+    ways = {"1": None, "3": 0.05, "5": 0.05, "adaptive": 0.1}
     for _ in range(3):
         for how in ways:
             for last in (short, long):
@@ -209,7 +209,7 @@ def filter_rows(films):
              for how in ways}
     out = []
     for how, aim in ways.items():
-        share = 1 - frame["off"] / frame[how]
+        share = 1 - frame["1"] / frame[how]
         out.append({"what": "filter", "how": how,
                     "ms": round(1e3 * frame[how], 2),
                     "alone": round(1e3 * alone[how], 2),
