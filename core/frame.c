@@ -204,11 +204,14 @@ static uint32_t time_allows(const struct frame_job *j, uint32_t want)
     return fits < 1.0 ? 0 : fits < want ? (uint32_t)fits : want;
 }
 
+/* Where neither error nor time ends it one pass is all. */
 static uint32_t next_pass(const struct frame_job *j, int met)
 {
     uint32_t n = j->film.samples;
     uint32_t even = 2u * j->film.share; /* the halves stay equal */
     uint32_t want = n == 0 ? FIRST_PASS * j->film.share : n;
+    if (j->error <= 0.0 && j->options->seconds <= 0.0)
+        return j->most - n;
     if (n > 0 && j->error > 0.0)
         want = error_wants(j, met);
     want += (even - want % even) % even;
@@ -307,7 +310,7 @@ static void load_part(struct frame_job *j)
 static uint32_t next_piece(const struct frame_job *j)
 {
     bool cpu = j->backend == &backend_cpu;
-    double first = cpu ? 1.0 : 16.0;
+    double first = cpu ? 1.0 : 64.0;
     double fits = j->rate > 0.0 ? j->rate * (cpu ? 1.0 : 20.0) : first;
     double most = fmin(fmin(fits, 8.0 * fmax(j->piece, first)), j->left);
     return most > 1.0 ? (uint32_t)most : 1u;
@@ -540,13 +543,19 @@ static void *open_backend(struct frame_job *j, const struct backend **b,
     return open_it(*b, frame, err);
 }
 
+/* One that is traced alone needs no pixels. */
+static bool make_film(struct frame_job *j, struct brume_error *err)
+{
+    j->film = (struct film){.share = 1};
+    return !j->rendering || film_init(&j->film, j->options, err);
+}
+
 /* Makes the film and brings the scene to the backend. */
 static bool open_state(struct frame_job *j, struct brume_error *err)
 {
     double start = timer_seconds();
     j->backend = choose_backend(j->options, err);
-    if (!j->backend || !film_init(&j->film, j->options, err) ||
-        !check_memory(j, j->flat, err))
+    if (!j->backend || !make_film(j, err) || !check_memory(j, j->flat, err))
         return false;
     j->stages = plan_stages(j->flat, j->options);
     j->film.lines = j->stages.lines;

@@ -14,9 +14,16 @@
 #include "core/shot.h"
 #include "lib/memory.h"
 
-/* The first two are those of a frame that is pushed, the next of a picture that
- * is asked for. */
-enum step { STEP_PREPARE, STEP_TRACE, STEP_FILTER, STEP_RENDER, STEP_FORGET };
+/* The first three are those of a frame that is pushed, the next two of a
+ * picture that is asked for. */
+enum step {
+    STEP_PREPARE,
+    STEP_TRACE,
+    STEP_KEEP,
+    STEP_FILTER,
+    STEP_RENDER,
+    STEP_FORGET
+};
 
 struct result {
     struct result *next;
@@ -132,7 +139,7 @@ static bool waits_for(const struct task *task, const struct task *t)
         return true;
     if (t->step == STEP_FORGET)
         return task->number < t->number;
-    bool fills = t->step == STEP_PREPARE || t->step == STEP_TRACE;
+    bool fills = t->step <= STEP_KEEP;
     return task->number == t->number || (task->step == STEP_FILTER && fills);
 }
 
@@ -198,6 +205,9 @@ static void do_step(struct lane *lane, struct task *task)
         break;
     case STEP_TRACE:
         shot_trace(shots, shot, worker->still);
+        break;
+    case STEP_KEEP:
+        shot_keep(shots, shot);
         break;
     case STEP_FILTER:
         if (shot)
@@ -274,7 +284,7 @@ static void *run_worker(void *context)
     static const unsigned steps[LANES] = {
         1u << STEP_TRACE | 1u << STEP_RENDER,
         1u << STEP_PREPARE,
-        1u << STEP_FILTER | 1u << STEP_FORGET,
+        1u << STEP_KEEP | 1u << STEP_FILTER | 1u << STEP_FORGET,
     };
     struct worker *worker = context;
     struct lane *first = worker->lane;
@@ -458,7 +468,7 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
     shot->options.warn = on_warn;
     shot->options.user = film;
     task->step = STEP_PREPARE;
-    task->end = brume_film_reach(options) > 0 ? STEP_TRACE : STEP_PREPARE;
+    task->end = brume_film_reach(options) > 0 ? STEP_KEEP : STEP_PREPARE;
     task->number = shot->number;
     task->shot = shot;
     put(film, task);

@@ -66,7 +66,7 @@ void shots_forget(struct shots *shots, uint32_t below)
     struct shot *gone = take_below(shots, below);
     while (gone) {
         struct shot *next = gone->next;
-        if (gone->traced)
+        if (gone->kept)
             __atomic_fetch_sub(&shots->ring, filter_bytes(&gone->field),
                                __ATOMIC_RELAXED);
         shot_free(gone);
@@ -86,7 +86,7 @@ void shot_close(struct shot *shot)
 void shot_free(struct shot *shot)
 {
     shot_close(shot);
-    if (shot->traced)
+    if (shot->kept)
         filter_release(&shot->field);
     brume_frame_free(&shot->out);
     free(shot);
@@ -110,29 +110,26 @@ void shot_prepare(struct shot *shot, struct brume_still *still)
         shot_close(shot);
 }
 
-/* A frame whose scene has no field has none to keep. */
-static bool keep_field(struct shots *shots, struct shot *shot)
-{
-    struct frame_job *job = &shot->job;
-    if (!plan_stages(job->flat, &shot->options).photons)
-        return true;
-    job->held = ring_bytes(shots);
-    if (!frame_trace(job, &shot->err) ||
-        !filter_keep(job->flat, job->power, &shot->field, &shot->err))
-        return false;
-    shot->traced = true;
-    __atomic_fetch_add(&shots->ring, filter_bytes(&shot->field),
-                       __ATOMIC_RELAXED);
-    return true;
-}
-
 void shot_trace(struct shots *shots, struct shot *shot,
                 struct brume_still *still)
 {
-    if (!shot->open)
+    struct frame_job *job = &shot->job;
+    if (!shot->open || !plan_stages(job->flat, &shot->options).photons)
         return;
     use_still(shot, still);
-    if (!keep_field(shots, shot) || !shot->picture)
+    job->held = ring_bytes(shots);
+    shot->traced = frame_trace(job, &shot->err);
+}
+
+void shot_keep(struct shots *shots, struct shot *shot)
+{
+    const struct frame_job *job = &shot->job;
+    shot->kept = shot->traced &&
+                 filter_keep(job->flat, job->power, &shot->field, &shot->err);
+    if (shot->kept)
+        __atomic_fetch_add(&shots->ring, filter_bytes(&shot->field),
+                           __ATOMIC_RELAXED);
+    if (shot->err.code || !shot->picture)
         shot_close(shot);
 }
 
@@ -157,7 +154,7 @@ static bool list_fields(struct shots *shots, const struct shot *shot,
             *err = other->err;
             return false;
         }
-        if (other->traced)
+        if (other->kept)
             fields[k + reach] = &other->field;
     }
     return true;
@@ -183,7 +180,7 @@ bool shot_filter(struct shots *shots, struct shot *shot, uint32_t first,
     int reach = brume_film_reach(&shot->options);
     struct brume_photon_stats *stats = &shot->out.stats.photons;
     double start = timer_seconds();
-    if (!shot->open || !shot->traced)
+    if (!shot->open || !shot->kept)
         return true;
     if (!list_fields(shots, shot, first, last, reach, fields, err) ||
         !run_filter(shot, fields, reach, scratch, err))

@@ -1,8 +1,8 @@
 /* shot.h - the frames of a film that are known, each from its scene to its
- * picture in steps: it is prepared, its field traced, the mean of its and its
- * neighbours' fields found, its picture rendered. Steps of different frames
- * may run at once, but for those that work on a device, of which there is one
- * at a time for each device. */
+ * picture in steps: it is prepared, its field traced and kept, the mean of its
+ * and its neighbours' fields found, its picture rendered. Steps of different
+ * frames may run at once, but for those that work on a device, of which there
+ * is one at a time for each device. */
 #ifndef CORE_SHOT_H
 #define CORE_SHOT_H
 #include <pthread.h>
@@ -19,7 +19,8 @@ struct shot {
     bool open;                 /* the job is                              */
     struct frame_job job;
     struct brume_frame out;
-    bool traced; /* the field below is there                */
+    bool traced; /* the job's field is there                */
+    bool kept;   /* the one below is                        */
     struct filter_field field;
     struct brume_error err; /* what it failed by                       */
 };
@@ -44,9 +45,10 @@ void shot_free(struct shot *shot);
 /* What stands still is looked for in `still`, or NULL: in that of the options;
  * nowhere if these have none. A failure is told by the picture. */
 void shot_prepare(struct shot *shot, struct brume_still *still);
-/* Its field, to be kept in the ring, where there is one. */
+/* Its field, where there is one; and that for its neighbours, in the ring. */
 void shot_trace(struct shots *shots, struct shot *shot,
                 struct brume_still *still);
+void shot_keep(struct shots *shots, struct shot *shot);
 
 /* The mean of the fields within reach, of the frames from `first` to `last`;
  * false with err set, where one of these failed too. */

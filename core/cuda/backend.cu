@@ -162,6 +162,13 @@ void describe_sole(const flat_scene *from, sole_medium *to)
     to->amount = describe_field(from, m->fire ? m->amount : -1);
 }
 
+/* Frames that an array may be waited for: where fields are filtered each is
+ * opened twice, with those within reach between. */
+int frames_between(const cuda_state *s)
+{
+    return 1 + 2 * brume_film_reach(s->frame.options);
+}
+
 /* Copies every array of the scene and points the device's view at them. */
 bool upload(cuda_state *s, brume_error *err)
 {
@@ -180,7 +187,7 @@ bool upload(cuda_state *s, brume_error *err)
     }
     SCENE_ARRAYS(X)
 #undef X
-    resident_end(s->kept);
+    resident_end(s->kept, frames_between(s));
     s->cells = const_cast<float *>(s->job.scene.radiance);
     return good && upload_flush(&s->to, err) &&
            device_clock_stop(&s->clock, 1, "the upload", err) &&
@@ -300,7 +307,7 @@ bool sample_warm(cuda_state *s, brume_error *err)
     return device_check(cudaDeviceSynchronize(), "opening", err);
 }
 
-void *cuda_open(const backend_frame *frame, brume_error *err)
+void *try_open(const backend_frame *frame, brume_error *err)
 {
     cuda_state *s = new (std::nothrow) cuda_state();
     if (!s) {
@@ -324,6 +331,17 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
         return s;
     cuda_close(s);
     return nullptr;
+}
+
+/* Again with nothing of other frames, where there is no room. */
+void *cuda_open(const backend_frame *frame, brume_error *err)
+{
+    void *state = try_open(frame, err);
+    if (state || err->code != BRUME_ERR_MEMORY ||
+        !resident_empty(resident_of(frame->options->still)))
+        return state;
+    *err = {};
+    return try_open(frame, err);
 }
 
 /* Hands over the times since this was done last. */

@@ -280,10 +280,18 @@ const void *resident_take(resident_set *set, const void *host, size_t bytes,
     return r->device;
 }
 
-void resident_end(resident_set *set)
+void resident_end(resident_set *set, int before)
 {
     if (set)
-        drop(set, 1);
+        drop(set, before);
+}
+
+bool resident_empty(resident_set *set)
+{
+    bool any = set && set->first;
+    if (any)
+        drop(set, -1);
+    return any;
 }
 
 bool resident_hash(const resident_set *set, const void *device, uint64_t *hash)

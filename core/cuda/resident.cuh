@@ -21,13 +21,15 @@ std::atomic<char *> *resident_spare(resident_set *set);
 bool resident_is_worth(const resident_set *set, size_t bytes);
 
 /* A frame takes its arrays, which so many threads look through; at the end
- * those go that neither it nor the one before took. What was taken stays until
- * the next frame begins. */
+ * those go that neither it nor the last `before` ones took. What was taken
+ * stays until the next frame begins. */
 void resident_begin(resident_set *set, uploader *to, int threads);
 /* NULL with err set. */
 const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err);
-void resident_end(resident_set *set);
+void resident_end(resident_set *set, int before);
+/* All go, between frames; false: there was none. */
+bool resident_empty(resident_set *set);
 
 /* What there is to tell of memory that the device fills itself. */
 struct resident_note {
