@@ -71,7 +71,9 @@ LIB      := $(call objects,$(wildcard lib/*.c))
 MODULE   := $(B)/brume_vdb.so
 IN_MODULE := $(addprefix $(B)/lib/,vdb_module.o vdb_file.o grid.o memory.o error.o)
 CORE     := $(call objects,$(wildcard core/*.c core/cpu/*.c))
-CUDA_SRC := $(if $(filter 1,$(CUDA)),$(wildcard core/cuda/*.cu))
+# Those that take longest come first, before all that is short.
+CUDA_SRC := $(if $(filter 1,$(CUDA)),$(wildcard core/cuda/sample_*.cu) \
+    $(filter-out core/cuda/sample_%,$(wildcard core/cuda/*.cu)))
 GENERATED := $(B)/parser/lexer.o $(B)/parser/grammar.o
 PARSER   := $(call objects,$(wildcard parser/*.c)) $(GENERATED)
 # What tests link of the front end: all but the program.
@@ -82,7 +84,7 @@ FUZZERS  := $(call programs,tests/fuzz)
 ifneq ($(CUDA_SRC),)
 CUDA_ANY := $(B)/core/cuda/photons_all.o $(B)/core/cuda/sample_all.o
 CUDA_LINKED := $(B)/core/cuda/linked.o
-CORE     += $(call objects,$(CUDA_SRC)) $(CUDA_LINKED)
+CORE     := $(call objects,$(CUDA_SRC)) $(CUDA_LINKED) $(CORE)
 CPPFLAGS += -DBRUME_CUDA
 OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
     -lstdc++ -ldl -lrt

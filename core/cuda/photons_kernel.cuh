@@ -18,6 +18,10 @@ namespace
 
 const int births_at_once = 128;
 
+/* Blocks of births that a multiprocessor must have room for: 168 registers a
+ * thread. */
+const int blocks_of_births = 3;
+
 /* Steps of a flight in a round, at most; threads of a warp for which one more
  * is made, for which surfaces are sought, and for which a cell more is laid. */
 const int most_steps = 16, step_threads = 4;
@@ -272,7 +276,7 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
     count_books(total, c);
 }
 
-__global__ void __launch_bounds__(births_at_once)
+__global__ void __launch_bounds__(births_at_once, blocks_of_births)
 bear_photons(const __grid_constant__ trace_job job)
 {
     unsigned i = blockIdx.x * births_at_once + threadIdx.x;
