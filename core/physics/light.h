@@ -147,15 +147,6 @@ HD bool light_reach(const flat_scene *s, int i, vec3 p, rng *r,
     return factor > 0.0f;
 }
 
-/* Chooses a light for the point p; false where it gives nothing. */
-HD bool light_choose(const flat_scene *s, vec3 p, rng *r, light_sample *out)
-{
-    if (s->lights_count == 0)
-        return false;
-    int i = light_find(s, rng_float(r), &out->probability);
-    return out->probability > 0.0f && light_reach(s, i, p, r, out);
-}
-
 /* 4 pi, by which a medium multiplies p C; pi in physical units. */
 HD float light_medium_factor(const flat_scene *s)
 {

@@ -25,9 +25,10 @@
 /* What a vertex makes of light from direction wi. */
 typedef struct {
     vec3 p, d;              /* d: direction of the ray that came there     */
-    const flat_medium *medium;      /* or NULL: a surface                  */
-    const hit_point *surface;
-    const path_event *event;        /* in a medium, where the path found it */
+    bool on_surface;        /* or in a medium                              */
+    const hit_point *surface;       /* on one                              */
+    const flat_medium *medium;      /* in one                              */
+    const path_event *event;        /* ... where the path found it         */
 } path_vertex;
 
 /* Radiance toward the eye per light C at a surface or per 4 pi C (pi C in
@@ -36,10 +37,10 @@ HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi,
                      bool highlights)
 {
     const hit_point *h = v->surface;
-    if (h && !highlights)
+    if (v->on_surface && !highlights)
         return surface_matte(h->material, h->color, h->opacity,
                              vec3_dot(h->ns, wi));
-    if (h)
+    if (v->on_surface)
         return surface_light(h->material, h->color, h->opacity, h->ns,
                              vec3_scale(v->d, -1.0f), wi);
     float p = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
@@ -50,7 +51,7 @@ HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi,
 /* Where a ray that leaves the vertex toward wi starts. */
 HD vec3 path_origin(const path_vertex *v, vec3 wi)
 {
-    if (!v->surface)
+    if (!v->on_surface)
         return v->p;
     vec3 n = v->surface->ng;
     return surface_offset(v->p, vec3_dot(n, wi) < 0.0f ? vec3_scale(n, -1.0f)
@@ -59,7 +60,7 @@ HD vec3 path_origin(const path_vertex *v, vec3 wi)
 
 HD bool path_faces(const path_vertex *v, vec3 wi)
 {
-    return !v->surface || vec3_dot(v->surface->ng, wi) > 0.0f;
+    return !v->on_surface || vec3_dot(v->surface->ng, wi) > 0.0f;
 }
 
 HD_APART rgb path_lit_line(const flat_scene *s, container_set *set, vec3 o,
@@ -79,7 +80,7 @@ HD rgb path_lit(const flat_scene *s, path_state *p, const path_vertex *v,
     container_set set = p->inside;
     bool atmosphere = s->media_multiple || light->media_attenuation != 0;
     vec3 o = path_origin(v, l->shadow_wi);
-    if (scene_may(MAY_FIELD) && s->field.numbers > 0 && v->surface &&
+    if (scene_may(MAY_FIELD) && s->field.numbers > 0 && v->on_surface &&
         atmosphere) {
         p->count->shadow_rays++;
         return rgb_mul(l->color, path_lit_line(s, &set, o, l->shadow_wi,
@@ -116,10 +117,11 @@ HD void path_light_sample(const flat_scene *s, path_state *p,
                           const path_vertex *v, const light_sample *l)
 {
     const flat_light *light = &s->lights[l->light];
-    if (!path_faces(v, l->wi) || (v->medium && !light->media_interaction))
+    if (!path_faces(v, l->wi) ||
+        (!v->on_surface && !light->media_interaction))
         return;
     rgb value = path_response(s, v, l->wi, light->shadows);
-    if (v->medium)
+    if (!v->on_surface)
         value = rgb_scale(value, 1.0f -
             path_along_share(p, light, v->event->t, v->event->sigma_s));
     if (rgb_is_black(value))
@@ -132,14 +134,14 @@ HD void path_light_sample(const flat_scene *s, path_state *p,
  * to all. */
 HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
 {
+    int i = 0, end = (int)s->lights_count;
     light_sample l;
-    if (!v->surface || !p->straight) {
-        if (light_choose(s, v->p, &p->random, &l))
-            path_light_sample(s, p, v, &l);
-        return;
-    }
     l.probability = 1.0f;
-    for (int i = 0; i < (int)s->lights_count; i++)
+    if (end > 0 && !(v->on_surface && p->straight)) {
+        i = light_find(s, rng_float(&p->random), &l.probability);
+        end = l.probability > 0.0f ? i + 1 : i;
+    }
+    for (; i < end; i++)
         if (light_reach(s, i, v->p, &p->random, &l))
             path_light_sample(s, p, v, &l);
 }
@@ -185,7 +187,7 @@ HD void path_along(const flat_scene *s, path_state *p)
     path_vertex v;
     light_sample l;
     v.p = vec3_mad(p->o, t, p->d);
-    v.surface = 0;
+    v.on_surface = false;
     if (!light_reach(s, i, v.p, &p->random, &l))
         return;
     rgb value = path_scattered(s, p, t, l.wi, &sigma_s);
@@ -206,7 +208,7 @@ HD void path_along(const flat_scene *s, path_state *p)
  * to it. */
 HD rgb path_bounce_own(const path_vertex *v, vec3 wi, float *pdf)
 {
-    if (v->surface) {
+    if (v->on_surface) {
         float cosine = vec3_dot(v->surface->ns, wi);
         *pdf = hd_max(cosine, 0.0f) * WARP_INV_PI;
         return rgb_scale(surface_matte(v->surface->material,
@@ -267,31 +269,36 @@ HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / (chosen + pdf)));
 }
 
-/* A direction in proportion to how a diffuse surface or a medium scatters, or
- * as a lamp has it. */
-HD vec3 path_bounce_choose(const path_vertex *v, path_state *p)
+/* What a lamp has of the directions in which a path goes on. */
+HD float path_aim_share(const path_state *p)
 {
-    float u, w, pdf;
+    return scene_may(MAY_LAMPS) ? p->aim.share : 0.0f;
+}
+
+/* A direction in proportion to how a diffuse surface or a medium scatters, or
+ * as a lamp has it; *own: a medium's density, where no lamp has a share. */
+HD vec3 path_bounce_choose(const path_vertex *v, path_state *p, float *own)
+{
+    float u, w, share = path_aim_share(p);
     path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
-    float share = scene_may(MAY_LAMPS) ? p->aim.share : 0.0f;
     if (u < share)
         return aim_sample(&p->aim, u / share, w);
     u = (u - share) / (1.0f - share);
-    if (v->medium)
-        return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, &pdf);
+    if (!v->on_surface)
+        return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, own);
     return warp_frame_to_world(warp_frame(v->surface->ns),
                                warp_cosine_hemisphere(u, w));
 }
 
-/* All light of the sky at a vertex from which no path goes on to find it. */
-HD void path_sky_alone(const flat_scene *s, path_state *p,
-                       const path_vertex *v)
+/* What a path that went on from the vertex would find of the sky, where none
+ * does. */
+HD void path_sky_rest(const flat_scene *s, path_state *p,
+                      const path_vertex *v)
 {
+    float pdf;
     if (!s->environment)
         return;
-    path_sky(s, p, v);
-    vec3 wi = path_bounce_choose(v, p);
-    float pdf;
+    vec3 wi = path_bounce_choose(v, p, &pdf);
     rgb value = rgb_mul(path_bounce_eval(p, v, wi, &pdf), sky_radiance(s, wi));
     if (!(pdf > 0.0f) || !path_faces(v, wi) || rgb_is_black(value))
         return;
@@ -475,50 +482,45 @@ HD void path_field(const flat_scene *s, path_state *p, const path_vertex *v)
     path_add(p, rgb_mul(p->beta, light));
 }
 
-/* Goes on from a vertex: off a surface diffusely. */
+/* Goes on from a vertex: off a surface diffusely. A medium's directions alone
+ * have the density of the phase function, and leave the weight as it is. */
 HD bool path_bounce(const flat_scene *s, path_state *p, const path_vertex *v)
 {
     float pdf;
-    vec3 d = path_bounce_choose(v, p);
-    if (!path_faces(v, d))
-        return false;
-    rgb value = path_bounce_eval(p, v, d, &pdf);
-    if (!(pdf > 0.0f))
-        return false;
-    p->beta = rgb_mul(p->beta, rgb_scale(value, 1.0f / pdf));
+    vec3 d = path_bounce_choose(v, p, &pdf);
+    if (v->on_surface || path_aim_share(p) > 0.0f) {
+        if (!path_faces(v, d))
+            return false;
+        rgb value = path_bounce_eval(p, v, d, &pdf);
+        if (!(pdf > 0.0f))
+            return false;
+        p->beta = rgb_mul(p->beta, rgb_scale(value, 1.0f / pdf));
+    }
     path_turn(p, path_origin(v, d), d, pdf);
     return path_goes_on(s, p);
 }
 
-HD bool path_scatter(const flat_scene *s, path_state *p,
-                     const path_event *event)
+/* Light that comes to a vertex, and the way on from there; false: there is
+ * none. */
+HD bool path_visit(const flat_scene *s, path_state *p, const path_vertex *v)
 {
-    path_vertex v;
-    v.p = vec3_mad(p->o, event->t, p->d);
-    v.d = p->d;
-    v.medium = &s->media[event->medium];
-    v.surface = 0;
-    v.event = event;
-    if (!s->field.single)
-        path_light(s, p, &v);
-    if (s->field.numbers > 0 && (p->straight || !s->field.straight)) {
-        path_field(s, p, &v);
+    bool goes_on = v->on_surface ? s->surfaces_indirect : s->media_multiple;
+    if (v->on_surface || !s->field.single)
+        path_light(s, p, v);
+    if (!v->on_surface && s->field.numbers > 0 &&
+        (p->straight || !s->field.straight)) {
+        path_field(s, p, v);
         return false;
     }
-    if (!s->media_multiple) {
-        path_sky_alone(s, p, &v);
-        return false;
+    if (goes_on) {
+        path_aim(s, p, v);
+        path_glow(s, p, v);
     }
-    path_aim(s, p, &v);
-    path_glow(s, p, &v);
-    path_sky(s, p, &v);
-    if (p->aim.share > 0.0f)
-        return path_bounce(s, p, &v);
-    float pdf, u, w;
-    path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
-    vec3 d = phase_sample(v.medium->phase, v.medium->g, p->d, u, w, &pdf);
-    path_turn(p, v.p, d, pdf);
-    return path_goes_on(s, p);
+    path_sky(s, p, v);
+    if (goes_on)
+        return path_bounce(s, p, v);
+    path_sky_rest(s, p, v);
+    return false;
 }
 
 /* Chooses between passing straight through and the surface's own light in
@@ -542,33 +544,19 @@ HD bool path_passes(path_state *p, const hit_point *h)
     return passes;
 }
 
-HD bool path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
-                     const ray_hit *h)
+/* Crosses the surface of a hit; or PATH_SCATTERED, and *at tells what is
+ * there. */
+HD int path_surface(const flat_scene *s, path_state *p, const bvh_ray *r,
+                    const ray_hit *h, hit_point *at)
 {
     if (hit_material(s, h) >= 0) {
-        hit_point at = hit_resolve(s, r, h);
-        if (!path_passes(p, &at)) {
-            path_vertex v;
-            v.p = at.p;
-            v.d = p->d;
-            v.medium = 0;
-            v.surface = &at;
-            path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,
-                                                      at.opacity)));
-            path_light(s, p, &v);
-            if (!s->surfaces_indirect) {
-                path_sky_alone(s, p, &v);
-                return false;
-            }
-            path_aim(s, p, &v);
-            path_glow(s, p, &v);
-            path_sky(s, p, &v);
-            return path_bounce(s, p, &v);
-        }
+        *at = hit_resolve(s, r, h);
+        if (!path_passes(p, at))
+            return PATH_SCATTERED;
     }
     shadow_cross(s, h, &p->inside);
     p->after = *h;
-    return !rgb_is_black(p->beta);
+    return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;
 }
 
 /* ---- the path ---------------------------------------------------------- */
@@ -589,38 +577,77 @@ HD bool path_plate(path_state *p, plate_view *plate)
     return !rgb_is_black(p->beta);
 }
 
-/* One segment: to the next event or surface, or the plate that the eye's ray
- * has ahead. False: the path has ended. */
-HD bool path_segment_to(const flat_scene *s, path_state *p, plate_view *plate,
-                        track_counters *count)
+/* What a segment may lead to. */
+typedef struct {
+    bvh_ray ray;
+    ray_hit hit;
+    bool covered;           /* the plate that the eye's ray has ahead ends it */
+    path_event event;       /* where media scatter, if they do             */
+} path_ahead;
+
+/* Seeks the next surface, or the plate. */
+HD void path_seek(const flat_scene *s, path_state *p, const plate_view *plate,
+                  track_counters *count, path_ahead *to)
 {
     p->count = count;
-    bvh_ray r = bvh_ray_make(p->o, p->d);
     p->count->rays++;
-    ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
-    if (h.shape < 0)
+    to->ray = bvh_ray_make(p->o, p->d);
+    to->hit = bvh_nearest(s, &to->ray, &p->after, s->far);
+    if (to->hit.shape < 0)
         container_leave_bounded(s, &p->inside);
-    path_event at;
-    bool covered = path_meets_plate(p, plate, &h);
-    int event = path_media(s, p, h.t, &at);
-    if (event == PATH_SCATTERED)
-        return path_scatter(s, p, &at);
-    if (event == PATH_ENDED)
-        return false;
-    if (covered)
-        return path_plate(p, plate);
-    if (h.shape >= 0)
-        return path_surface(s, p, &r, &h);
-    path_escape(s, p);
-    return false;
+    to->covered = path_meets_plate(p, plate, &to->hit);
 }
 
-/* The same without a plate. */
+/* What is at the end of a segment without events: a surface where the path
+ * stays, PATH_SCATTERED, or one that it crosses, or nothing. */
+HD int path_arrive(const flat_scene *s, path_state *p, plate_view *plate,
+                   const path_ahead *to, hit_point *at)
+{
+    if (to->covered)
+        return path_plate(p, plate) ? PATH_THROUGH : PATH_ENDED;
+    if (to->hit.shape >= 0)
+        return path_surface(s, p, &to->ray, &to->hit, at);
+    path_escape(s, p);
+    return PATH_ENDED;
+}
+
+/* Takes the event of a segment, or what is at its end. False: the path has
+ * ended. */
+HD bool path_land(const flat_scene *s, path_state *p, plate_view *plate,
+                  const path_ahead *to, int event)
+{
+    path_vertex v;
+    hit_point at;
+    v.d = p->d;
+    if (event == PATH_SCATTERED) {
+        v.on_surface = false;
+        v.p = vec3_mad(p->o, to->event.t, p->d);
+        v.medium = &s->media[to->event.medium];
+        v.event = &to->event;
+        return path_visit(s, p, &v);
+    }
+    if (event == PATH_THROUGH)
+        event = path_arrive(s, p, plate, to, &at);
+    if (event != PATH_SCATTERED)
+        return event == PATH_THROUGH;
+    v.on_surface = true;
+    v.p = at.p;
+    v.surface = &at;
+    path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,
+                                              at.opacity)));
+    return path_visit(s, p, &v);
+}
+
+/* One segment without a plate: to the next event or surface. False: the path
+ * has ended. */
 HD bool path_segment(const flat_scene *s, path_state *p,
                      track_counters *count)
 {
     plate_view none = plate_none();
-    return path_segment_to(s, p, &none, count);
+    path_ahead to;
+    path_seek(s, p, &none, count, &to);
+    int event = path_media(s, p, to.hit.t, &to.event);
+    return path_land(s, p, &none, &to, event);
 }
 
 /* Starts a path at o (containers `inside`) along the unit vector d. A path

@@ -397,13 +397,15 @@ HD rgb photon_sent(const flat_scene *s, photon_state *p, const bvh_ray *r,
     x.ns = vec3_scale(x.ns, -1.0f);
     v.p = x.p;
     v.d = vec3_scale(d, -1.0f);
+    v.on_surface = true;
     v.medium = 0;
     v.event = 0;
     v.surface = &x;
     path_begin(&look, v.p, v.d, inside, false, p->path.random);
     look.count = p->path.count;
     path_light(s, &look, &v);
-    path_sky_alone(s, &look, &v);
+    path_sky(s, &look, &v);
+    path_sky_rest(s, &look, &v);
     p->path.random = look.random;
     return rgb_add(glow, look.radiance);
 }

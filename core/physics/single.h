@@ -139,7 +139,7 @@ HD void single_point(const flat_scene *s, path_state *p,
     light_sample l;
     float sigma_s;
     v.p = vec3_mad(p->o, t, p->d);
-    v.surface = 0;
+    v.on_surface = false;
     if (!light_reach(s, i, v.p, &p->random, &l))
         return;
     rgb value = rgb_scale(path_scattered(s, p, t, l.wi, &sigma_s),
@@ -361,20 +361,6 @@ HD line_integral single_along(const flat_scene *s, path_state *p, float t,
                        all, jitter);
 }
 
-/* What the media of a segment scatter. */
-HD void single_media(const flat_scene *s, path_state *p, const ray_hit *h)
-{
-    single_profile f;
-    bool scattered = single_look(s, p, h->t, &f);
-    if (scattered && s->field.lit)
-        single_rest(s, p, &f, p->along);
-    else if (scattered)
-        for (int i = 0; i < (int)s->lights_count; i++) {
-            float u = p->along + 0.61803399f * (float)i;
-            single_light(s, p, &f, i, u - (float)hd_floor(u));
-        }
-}
-
 /* Whether the eye's rays need no flights. */
 HD bool single_does(const flat_scene *s)
 {
@@ -390,47 +376,58 @@ HD bool single_follows(const flat_scene *s)
     return scene_may(MAY_FIELD) && s->field.lit && s->field.eye < 0;
 }
 
-/* All that a surface's ray gathers up to the next one, and what passes: the
- * cells along it, and at one place what they are wrong by. */
-HD void single_gather(const flat_scene *s, path_state *p, const ray_hit *h)
+/* Light that media scatter once along a segment. A surface's ray has no place
+ * of its own to look at. */
+HD void single_scatter(const flat_scene *s, path_state *p, float t1)
 {
     single_profile f;
-    if (single_look(s, p, h->t, &f))
-        single_rest(s, p, &f, rng_float(&p->random));
-    line_integral line = single_along(s, p, h->t, true);
-    path_add(p, rgb_mul(p->beta, line.radiance));
-    p->beta = rgb_mul(p->beta, line_transmittance(&line));
+    if (!single_look(s, p, t1, &f))
+        return;
+    if (!p->straight || s->field.lit) {
+        single_rest(s, p, &f, p->straight ? p->along : rng_float(&p->random));
+        return;
+    }
+    for (int i = 0; i < (int)s->lights_count; i++) {
+        float u = p->along + 0.61803399f * (float)i;
+        single_light(s, p, &f, i, u - (float)hd_floor(u));
+    }
 }
 
-/* In place of path_segment_to. */
+/* Whether nothing that is behind a segment of the eye's ray gives light. */
+HD bool single_ends(const flat_scene *s, const path_state *p,
+                    const plate_view *plate, const path_ahead *to)
+{
+    if (to->covered)
+        return !(plate->pass > 0.0f);
+    return to->hit.shape < 0 || single_is_last(s, p, &to->ray, &to->hit);
+}
+
+/* In place of path_media: what is scattered up to the next surface, and what
+ * passes. What a surface sends on gathers the cells' light along it too. */
+HD int single_media(const flat_scene *s, path_state *p,
+                    const plate_view *plate, const path_ahead *to)
+{
+    single_scatter(s, p, to->hit.t);
+    if (p->straight && single_ends(s, p, plate, to))
+        return PATH_ENDED;
+    line_integral line = single_along(s, p, to->hit.t, !p->straight);
+    if (!p->straight)
+        path_add(p, rgb_mul(p->beta, line.radiance));
+    p->beta = rgb_mul(p->beta, line_transmittance(&line));
+    return rgb_is_black(p->beta) ? PATH_ENDED : PATH_THROUGH;
+}
+
+/* One segment: to the next event or surface, or the plate that the eye's ray
+ * has ahead. False: the path has ended. */
 HD bool single_segment(const flat_scene *s, path_state *p, plate_view *plate,
                        track_counters *count)
 {
-    if (!single_does(s) || !(p->straight || single_follows(s)))
-        return path_segment_to(s, p, plate, count);
-    p->count = count;
-    bvh_ray r = bvh_ray_make(p->o, p->d);
-    p->count->rays++;
-    ray_hit h = bvh_nearest(s, &r, &p->after, s->far);
-    if (h.shape < 0)
-        container_leave_bounded(s, &p->inside);
-    if (!p->straight) {
-        single_gather(s, p, &h);
-        if (h.shape >= 0)
-            return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
-        path_escape(s, p);
-        return false;
-    }
-    bool covered = path_meets_plate(p, plate, &h);
-    single_media(s, p, &h);
-    if (covered ? !(plate->pass > 0.0f)
-                : h.shape < 0 || single_is_last(s, p, &r, &h))
-        return false;
-    line_integral line = single_along(s, p, h.t, false);
-    p->beta = rgb_mul(p->beta, line_transmittance(&line));
-    if (covered)
-        return path_plate(p, plate);
-    return !rgb_is_black(p->beta) && path_surface(s, p, &r, &h);
+    path_ahead to;
+    path_seek(s, p, plate, count, &to);
+    bool all = single_does(s) && (p->straight || single_follows(s));
+    int event = all ? single_media(s, p, plate, &to)
+                    : path_media(s, p, to.hit.t, &to.event);
+    return path_land(s, p, plate, &to, event);
 }
 
 #endif

@@ -165,6 +165,7 @@ static inline void walk_arrive(struct walk *w, struct walker *a, path_state *p,
     v.p = vec3_mad(p->o, event->t, p->d);
     v.d = p->d;
     v.medium = &w->scene->media[event->medium];
+    v.on_surface = false;
     v.surface = NULL;
     v.event = event;
     path_light(w->scene, p, &v);
