@@ -17,8 +17,8 @@ const uint32_t samples_per_launch = most_samples;
 const size_t most_paths = 1u << 21;
 
 /* From the leanest to the one that can do all. */
-const sample_stage *const kernels[] = {&sample_media, &sample_lit, &sample_fire,
-                                       &sample_all};
+const sample_stage *const kernels[] = {&sample_media, &sample_glow, &sample_lit,
+                                       &sample_fire, &sample_all};
 
 const lines_stage *const line_kernels[] = {&lines_media, &lines_fire,
                                            &lines_lit, &lines_all};

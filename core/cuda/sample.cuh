@@ -52,5 +52,6 @@ const int LINES_IGNORE = MAY_LAMPS | MAY_CLEAR;
 
 extern const lines_stage lines_media, lines_fire, lines_lit, lines_all;
 
-extern const sample_stage sample_media, sample_lit, sample_fire, sample_all;
+extern const sample_stage sample_media, sample_glow, sample_lit, sample_fire,
+    sample_all;
 #endif
