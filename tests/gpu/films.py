@@ -187,7 +187,7 @@ def film_seconds(films, temporal, last):
     seconds, frames = films.finish(
         smoke(films), "whole", ["+KFI1", "+KFF48", "+SF9", f"+EF{last}", "+W640",
                          "+H480", "--integrator", "photon", "--photons",
-                         "100000", "--spp", "16", "--temporal", temporal])
+                         "100000", "--spp", "32", "--temporal", temporal])
     own = [f["photons"]["seconds_filter"] for f in frames[1:]]
     return seconds, sum(own) / len(own)
 
