@@ -4,8 +4,9 @@
  * often is a mean over neighbouring frames; each field is computed once and
  * kept while it is needed. A picture depends on the frames within its reach
  * alone, whichever others the film has. While one frame is rendered others are
- * prepared and their fields filtered, unless the options give it one thread:
- * who hands over many at once holds them all. One thread calls. */
+ * prepared and their fields filtered, unless the options give it one thread or
+ * a limit of memory: who hands over many at once holds them all. One thread
+ * calls. */
 #ifndef CORE_BRUME_FILM_H
 #define CORE_BRUME_FILM_H
 

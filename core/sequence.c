@@ -177,12 +177,12 @@ static void render(struct worker *worker, struct shot *shot,
                    (unsigned long)task->number);
         return;
     }
-    if (shot_render(shot, worker->still, &result->err)) {
+    if (shot_render(&worker->film->shots, shot, worker->still, &result->err)) {
         result->frame = shot->out;
         result->frame.stats.worker = worker->number;
         memset(&shot->out, 0, sizeof shot->out);
     }
-    shot_close(shot);
+    shot_close(&worker->film->shots, shot);
 }
 
 static struct shot *take_shot(struct task *task)
@@ -201,7 +201,7 @@ static void do_step(struct lane *lane, struct task *task)
     struct shot *shot = shots_find(shots, task->number);
     switch (task->step) {
     case STEP_PREPARE:
-        shot_prepare(shot, worker->still);
+        shot_prepare(shots, shot, worker->still);
         break;
     case STEP_TRACE:
         shot_trace(shots, shot, worker->still);
@@ -370,10 +370,10 @@ bool brume_film_workers(struct brume_film *film, int count,
 }
 
 /* One that was not begun. */
-static void free_task(struct task *task)
+static void free_task(struct brume_film *film, struct task *task)
 {
     if (task->shot)
-        shot_free(task->shot);
+        shot_free(&film->shots, task->shot);
     free(task);
 }
 
@@ -396,7 +396,7 @@ void brume_film_free(struct brume_film *film)
         return;
     stop_workers(film);
     while ((item = take_first(&film->task)))
-        free_task(item);
+        free_task(film, item);
     shots_release(&film->shots);
     while ((item = take_first(&film->warning)))
         free(item);
@@ -452,7 +452,8 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
 {
     struct task *task = memory_new(1, sizeof *task, err);
     struct shot *shot = memory_new(1, sizeof *shot, err);
-    bool serial = options->threads == 1;
+    /* A limit is to hold whichever thread is how far. */
+    bool serial = options->threads == 1 || options->memory > 0;
     if (!task || !shot || (film->workers == 0 && !start(film, serial, err))) {
         brume_scene_free(scene);
         free(task);

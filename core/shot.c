@@ -13,7 +13,7 @@ void shots_release(struct shots *shots)
     while (shots->first) {
         struct shot *shot = shots->first;
         shots->first = shot->next;
-        shot_free(shot);
+        shot_free(shots, shot);
     }
     pthread_mutex_destroy(&shots->lock);
 }
@@ -39,6 +39,21 @@ struct shot *shots_find(struct shots *shots, uint32_t number)
 static uint64_t ring_bytes(const struct shots *shots)
 {
     return __atomic_load_n(&shots->ring, __ATOMIC_RELAXED);
+}
+
+/* What is held beside a frame's own: other scenes where there is a limit, as
+ * then steps are in turn and it is the same in each run. */
+static uint64_t held_beside(const struct shots *shots, const struct shot *shot)
+{
+    uint64_t open = __atomic_load_n(&shots->open, __ATOMIC_RELAXED);
+    return ring_bytes(shots) +
+           (shot->options.memory > 0 ? open - shot->bytes : 0);
+}
+
+static void count_open(struct shots *shots, struct shot *shot, uint64_t bytes)
+{
+    __atomic_fetch_add(&shots->open, bytes - shot->bytes, __ATOMIC_RELAXED);
+    shot->bytes = bytes;
 }
 
 /* Takes the shots below a number off the list. */
@@ -69,13 +84,14 @@ void shots_forget(struct shots *shots, uint32_t below)
         if (gone->kept)
             __atomic_fetch_sub(&shots->ring, filter_bytes(&gone->field),
                                __ATOMIC_RELAXED);
-        shot_free(gone);
+        shot_free(shots, gone);
         gone = next;
     }
 }
 
-void shot_close(struct shot *shot)
+void shot_close(struct shots *shots, struct shot *shot)
 {
+    count_open(shots, shot, 0);
     if (shot->open)
         frame_close(&shot->job);
     shot->open = false;
@@ -83,9 +99,9 @@ void shot_close(struct shot *shot)
     shot->scene = NULL;
 }
 
-void shot_free(struct shot *shot)
+void shot_free(struct shots *shots, struct shot *shot)
 {
-    shot_close(shot);
+    shot_close(shots, shot);
     if (shot->kept)
         filter_release(&shot->field);
     brume_frame_free(&shot->out);
@@ -98,7 +114,8 @@ static void use_still(struct shot *shot, struct brume_still *still)
         shot->options.still = still ? still : shot->still;
 }
 
-void shot_prepare(struct shot *shot, struct brume_still *still)
+void shot_prepare(struct shots *shots, struct shot *shot,
+                  struct brume_still *still)
 {
     use_still(shot, still);
     shot->open = true;
@@ -106,8 +123,10 @@ void shot_prepare(struct shot *shot, struct brume_still *still)
                            &shot->err);
     brume_scene_free(shot->scene);
     shot->scene = NULL;
-    if (!good)
-        shot_close(shot);
+    if (good)
+        count_open(shots, shot, flat_bytes(shot->job.flat));
+    else
+        shot_close(shots, shot);
 }
 
 void shot_trace(struct shots *shots, struct shot *shot,
@@ -117,7 +136,7 @@ void shot_trace(struct shots *shots, struct shot *shot,
     if (!shot->open || !plan_stages(job->flat, &shot->options).photons)
         return;
     use_still(shot, still);
-    job->held = ring_bytes(shots);
+    job->held = held_beside(shots, shot);
     shot->traced = frame_trace(job, &shot->err);
 }
 
@@ -130,7 +149,7 @@ void shot_keep(struct shots *shots, struct shot *shot)
         __atomic_fetch_add(&shots->ring, filter_bytes(&shot->field),
                            __ATOMIC_RELAXED);
     if (shot->err.code || !shot->picture)
-        shot_close(shot);
+        shot_close(shots, shot);
 }
 
 /* The fields within reach; false with err set where a frame failed. */
@@ -185,14 +204,14 @@ bool shot_filter(struct shots *shots, struct shot *shot, uint32_t first,
     if (!list_fields(shots, shot, first, last, reach, fields, err) ||
         !run_filter(shot, fields, reach, scratch, err))
         return false;
-    stats->ring = shot->job.held = ring_bytes(shots);
+    stats->ring = ring_bytes(shots);
     stats->drifts = shot->field.drift != NULL;
     stats->seconds_filter = timer_seconds() - start;
     return true;
 }
 
-bool shot_render(struct shot *shot, struct brume_still *still,
-                 struct brume_error *err)
+bool shot_render(const struct shots *shots, struct shot *shot,
+                 struct brume_still *still, struct brume_error *err)
 {
     if (shot->err.code) {
         *err = shot->err;
@@ -204,5 +223,6 @@ bool shot_render(struct shot *shot, struct brume_still *still,
                           "its own",
                           (unsigned long)shot->number);
     use_still(shot, still);
+    shot->job.held = held_beside(shots, shot);
     return frame_render(&shot->job, shot->traced, err);
 }

@@ -17,6 +17,7 @@ struct shot {
     struct brume_still *still; /* of these as they were given             */
     bool picture;              /* will be asked for                       */
     bool open;                 /* the job is                              */
+    uint64_t bytes;            /* of its scene, while it is               */
     struct frame_job job;
     struct brume_frame out;
     bool traced; /* the job's field is there                */
@@ -29,6 +30,7 @@ struct shots {
     pthread_mutex_t lock;
     struct shot *first;
     uint64_t ring; /* bytes of the fields of all              */
+    uint64_t open; /* and of the scenes of those that are open */
 };
 
 void shots_init(struct shots *shots);
@@ -40,11 +42,12 @@ struct shot *shots_find(struct shots *shots, uint32_t number);
 void shots_forget(struct shots *shots, uint32_t below);
 
 /* One that is in no list. */
-void shot_free(struct shot *shot);
+void shot_free(struct shots *shots, struct shot *shot);
 
 /* What stands still is looked for in `still`, or NULL: in that of the options;
  * nowhere if these have none. A failure is told by the picture. */
-void shot_prepare(struct shot *shot, struct brume_still *still);
+void shot_prepare(struct shots *shots, struct shot *shot,
+                  struct brume_still *still);
 /* Its field, where there is one; and that for its neighbours, in the ring. */
 void shot_trace(struct shots *shots, struct shot *shot,
                 struct brume_still *still);
@@ -55,8 +58,8 @@ void shot_keep(struct shots *shots, struct shot *shot);
 bool shot_filter(struct shots *shots, struct shot *shot, uint32_t first,
                  uint32_t last, struct filter_scratch *scratch,
                  struct brume_error *err);
-bool shot_render(struct shot *shot, struct brume_still *still,
-                 struct brume_error *err);
+bool shot_render(const struct shots *shots, struct shot *shot,
+                 struct brume_still *still, struct brume_error *err);
 /* Its memory but for the field. */
-void shot_close(struct shot *shot);
+void shot_close(struct shots *shots, struct shot *shot);
 #endif

@@ -186,6 +186,41 @@ static void workers__prepare_while_they_render(void **state)
     brume_film_free(film);
 }
 
+/* The middle one of as many frames as its filter wants, of all of which there
+ * will be pictures, or of it alone; its bytes, 0: it failed. */
+static uint64_t middle_bytes(uint64_t memory, bool all)
+{
+    struct brume_error err = {0};
+    struct brume_frame f;
+    struct brume_options o = options(9, true);
+    struct brume_film *film = brume_film_new(NULL, truth_error());
+    o.threads = 0;
+    o.memory = memory;
+    for (int i = 0; i < 9; i++) {
+        o.frame = (uint32_t)i;
+        assert_true(brume_film_push(film, fog_ball(0.05 * i), &o, all || i == 4,
+                                    truth_error()));
+    }
+    assert_true(brume_film_ask(film, 4, 0, 8, truth_error()));
+    bool good = brume_film_next(film, &f, &err);
+    assert_int_equal(err.code, good ? BRUME_OK : BRUME_ERR_MEMORY);
+    uint64_t bytes = good ? f.stats.bytes : 0;
+    brume_frame_free(&f);
+    brume_film_free(film);
+    return bytes;
+}
+
+/* Scenes that wait for their pictures count under a limit, alike in each. */
+static void workers__keep_to_memory(void **state)
+{
+    (void)state;
+    uint64_t much = (uint64_t)1 << 40, bytes = middle_bytes(much, true);
+    uint64_t less = middle_bytes(much, false);
+    assert_true(less > 0 && bytes > less + (uint64_t)8 * SIDE * SIDE * 3);
+    assert_int_equal(middle_bytes(bytes, true), bytes);
+    assert_int_equal(middle_bytes(bytes - 1, true), 0);
+}
+
 static void workers__stop_all(void **state)
 {
     (void)state;
@@ -222,6 +257,7 @@ int main(void)
         cmocka_unit_test(workers__have_the_pictures_of_one),
         cmocka_unit_test(workers__are_chosen_before_the_first_frame),
         cmocka_unit_test(workers__prepare_while_they_render),
+        cmocka_unit_test(workers__keep_to_memory),
         cmocka_unit_test(workers__stop_all),
         cmocka_unit_test(workers__devices_need_a_gpu),
     };
