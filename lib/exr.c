@@ -202,6 +202,8 @@ static bool write_blocks(const struct session *s, exr_context_t context,
     size_t count = ((size_t)image->height + BLOCK_LINES - 1) / BLOCK_LINES;
     struct packing p = {.context = context, .image = image};
     threads = threads > 0 ? threads : thread_processors();
+    if ((size_t)threads > count)
+        threads = (int)count;
     if (!memory_multiply((size_t)image->width * BLOCK_LINES, image->channels,
                          &p.samples))
         return brume_fail(s->err, BRUME_ERR_MEMORY, "too many channels");

@@ -365,41 +365,60 @@ static void photon_ball__voxels_weigh_as_they_glow(void **state)
     brume_scene_free(s);
 }
 
-/* Balls around a heap as large as a voxel or two: what is in them beside the
- * mean of many places, the ball's own 2 x 16 of which mostly miss it. */
+/* A heap as large as a voxel or two in a medium that is alone, and balls of a
+ * field around it. */
+struct heap {
+    brume_scene *scene;
+    struct flat *flat;
+    flat_scene view;
+};
+
+static struct heap heap_of(struct brume_medium m)
+{
+    struct heap h;
+    h.scene = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0, 0.45);
+    m.density[0] = add_heap(h.scene, 2.0);
+    m.densities = 1;
+    truth_fill(h.scene, truth_box(1.0, -1.0, 1.0), &m);
+    h.flat = truth_flat(h.scene);
+    h.view = h.flat->view;
+    h.view.field.radius = 0.4f * (float)h.flat->unit;
+    return h;
+}
+
+static void heap_free(struct heap *h)
+{
+    flat_free(h->flat);
+    brume_scene_free(h->scene);
+}
+
+/* What is in balls around a heap, beside the mean of many places: the ball's own
+ * 2 x 16 mostly miss it. */
 static void photon_ball__finds_what_is_thick(void **state)
 {
     (void)state;
     enum { PLACES = 50000, BALLS = 16 };
-    brume_scene *s = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0,
-                                 0.45);
-    struct brume_medium m = truth_medium(0.0, 1.0, 0.0);
-    m.density[0] = add_heap(s, 2.0);
-    m.densities = 1;
-    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    struct flat *flat = truth_flat(s);
-    flat_scene v = flat->view;
-    v.field.radius = 0.4f * (float)flat->unit;
+    struct heap h = heap_of(truth_medium(0.0, 1.0, 0.0));
+    const flat_scene *v = &h.view;
     for (int i = 0; i < BALLS; i++) {
         double sum = 0.0;
         rng random = rng_make(1, 0, 0, (uint64_t)i);
-        vec3 x = vec3_scale(ball_offset(i), 0.9f * v.field.radius);
+        vec3 x = vec3_scale(ball_offset(i), 0.9f * v->field.radius);
         for (int k = 0; k < PLACES; k++) {
             float z = rng_float(&random), a = rng_float(&random);
-            float r = cbrtf(rng_float(&random)) * v.field.radius;
+            float r = cbrtf(rng_float(&random)) * v->field.radius;
             vec3 p = vec3_mad(x, r, warp_sphere(z, a));
-            field_point at = field_point_make(&v, v.media[0].lead, p);
+            field_point at = field_point_make(v, v->media[0].lead, p);
             sum += (double)radiance_thickness(
-                       &v.media[0], medium_density(&v, &v.media[0], &at)) /
+                       &v->media[0], medium_density(v, &v->media[0], &at)) /
                    PLACES;
         }
         double found =
-            (double)ball_media_at(&v, x, BALL_MEAN, team_alone()).thickness;
+            (double)ball_media_at(v, x, BALL_MEAN, team_alone()).thickness;
         if (!(found > 0.6 * sum && found < 1.6 * sum))
             fail_msg("ball %d: %g of %g", i, found, sum);
     }
-    flat_free(flat);
-    brume_scene_free(s);
+    heap_free(&h);
 }
 
 /* A medium that is alone scatters alike whether all of its ball has been looked
@@ -407,30 +426,22 @@ static void photon_ball__finds_what_is_thick(void **state)
 static void photon_ball__a_place_tells_of_one_medium(void **state)
 {
     (void)state;
-    brume_scene *s = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0,
-                                 0.45);
-    struct brume_medium m = truth_medium(0.5, 2.0, 0.6);
-    m.density[0] = add_heap(s, 2.0);
-    m.densities = 1;
-    truth_fill(s, truth_box(1.0, -1.0, 1.0), &m);
-    struct flat *flat = truth_flat(s);
-    flat_scene v = flat->view;
-    v.field.radius = 0.4f * (float)flat->unit;
+    struct heap h = heap_of(truth_medium(0.5, 2.0, 0.6));
+    const flat_scene *v = &h.view;
     for (int i = 0; i < 50; i++) {
-        vec3 x = vec3_scale(ball_offset(i), 1.2f * v.field.radius);
+        vec3 x = vec3_scale(ball_offset(i), 1.2f * v->field.radius);
         vec3 d = ball_offset(i + 50), wi = ball_offset(i + 100);
         d = vec3_scale(d, 1.0f / vec3_length(d));
         wi = vec3_scale(wi, 1.0f / vec3_length(wi));
-        ball_media mean = ball_media_at(&v, x, BALL_MEAN, team_alone());
-        ball_media some = ball_media_at(&v, x, BALL_SHARES, team_alone());
-        rgb a = ball_scattered(&v, &mean, d, wi);
-        rgb b = ball_scattered(&v, &some, d, wi);
+        ball_media mean = ball_media_at(v, x, BALL_MEAN, team_alone());
+        ball_media some = ball_media_at(v, x, BALL_SHARES, team_alone());
+        rgb a = ball_scattered(v, &mean, d, wi);
+        rgb b = ball_scattered(v, &some, d, wi);
         if (!(a.r > 0.0f && fabsf(b.r / a.r - 1.0f) < 1e-6f))
             fail_msg("ball %d: %g, of its mean %g", i, (double)b.r,
                      (double)a.r);
     }
-    flat_free(flat);
-    brume_scene_free(s);
+    heap_free(&h);
 }
 
 /* What the table of a ball's points is made of. */
