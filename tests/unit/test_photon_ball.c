@@ -365,19 +365,19 @@ static void photon_ball__voxels_weigh_as_they_glow(void **state)
     brume_scene_free(s);
 }
 
-/* A heap as large as a voxel or two in a medium that is alone, and balls of a
- * field around it. */
+/* A heap in a medium that is alone, and balls of a field around it; with a
+ * steepness of 2 it is as large as a voxel or two. */
 struct heap {
     brume_scene *scene;
     struct flat *flat;
     flat_scene view;
 };
 
-static struct heap heap_of(struct brume_medium m)
+static struct heap heap_of(struct brume_medium m, double steep)
 {
     struct heap h;
     h.scene = truth_scene(&(struct brume_globals)BRUME_GLOBALS_INIT, 5.0, 0.45);
-    m.density[0] = add_heap(h.scene, 2.0);
+    m.density[0] = add_heap(h.scene, steep);
     m.densities = 1;
     truth_fill(h.scene, truth_box(1.0, -1.0, 1.0), &m);
     h.flat = truth_flat(h.scene);
@@ -392,13 +392,13 @@ static void heap_free(struct heap *h)
     brume_scene_free(h->scene);
 }
 
-/* What is in balls around a heap, beside the mean of many places: the ball's own
- * 2 x 16 mostly miss it. */
+/* What is in balls around a heap, beside the mean of many places: of the ball's
+ * own 2 x 16 most miss it. */
 static void photon_ball__finds_what_is_thick(void **state)
 {
     (void)state;
     enum { PLACES = 50000, BALLS = 16 };
-    struct heap h = heap_of(truth_medium(0.0, 1.0, 0.0));
+    struct heap h = heap_of(truth_medium(0.0, 1.0, 0.0), 2.0);
     const flat_scene *v = &h.view;
     for (int i = 0; i < BALLS; i++) {
         double sum = 0.0;
@@ -422,14 +422,17 @@ static void photon_ball__finds_what_is_thick(void **state)
 }
 
 /* A medium that is alone scatters alike whether all of its ball has been looked
- * at or a place of it: in every direction, as in the whole ball's mean. */
+ * at or a place of it: in every direction, as in the whole ball's mean. Most of
+ * every other ball is beyond the medium's end. */
 static void photon_ball__a_place_tells_of_one_medium(void **state)
 {
     (void)state;
-    struct heap h = heap_of(truth_medium(0.5, 2.0, 0.6));
+    struct heap h = heap_of(truth_medium(0.5, 2.0, 0.6), 0.05);
     const flat_scene *v = &h.view;
     for (int i = 0; i < 50; i++) {
-        vec3 x = vec3_scale(ball_offset(i), 1.2f * v->field.radius);
+        vec3 x = vec3_scale(ball_offset(i),
+                            (i % 2 ? 0.2f : 1.2f) * v->field.radius);
+        x.x += i % 2 ? 1.15f * (float)h.flat->unit : 0.0f;
         vec3 d = ball_offset(i + 50), wi = ball_offset(i + 100);
         d = vec3_scale(d, 1.0f / vec3_length(d));
         wi = vec3_scale(wi, 1.0f / vec3_length(wi));

@@ -210,7 +210,7 @@ static uint64_t middle_bytes(uint64_t memory, bool all)
     return bytes;
 }
 
-/* Under a limit scenes that wait for their pictures count, in each run alike. */
+/* Under a limit scenes that wait for pictures count, in each run alike. */
 static void workers__keep_to_memory(void **state)
 {
     (void)state;
