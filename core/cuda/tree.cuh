@@ -32,6 +32,21 @@ struct tree_extent {
     uint32_t lo[3], hi[3];
 };
 
+/* Loads kernels' code, for which their first launches would wait. */
+template <typename... kernels> cudaError_t tree_load(kernels *...kernel)
+{
+    cudaFuncAttributes some;
+    cudaError_t code = cudaSuccess;
+    ((code = code ? code : cudaFuncGetAttributes(&some, kernel)), ...);
+    return code;
+}
+
+/* Load the code of what builds a tree; of the bounds by that of all others. */
+cudaError_t tree_load_bounds();
+cudaError_t tree_load_binary(uint32_t count);
+cudaError_t tree_load_wide();
+cudaError_t tree_load_kd(uint32_t count);
+
 /* tree_items.cu: finds the bounds; `extent` is of what is in it already, too,
  * centres where `centres`, else boxes. */
 void tree_find_bounds(const tree_items *items, const tree_bounds *to,

@@ -342,6 +342,13 @@ size_t tree_bvh_bytes(uint32_t count)
            device_round(tree_sort_bytes(count + 1));
 }
 
+cudaError_t tree_load_binary(uint32_t count)
+{
+    tree_sort_bytes(count + 1);
+    cudaError_t code = tree_load_bounds();
+    return code ? code : tree_load(find_codes, begin, merge_all);
+}
+
 bool tree_build_binary(const tree_items *items, int places,
                        device_arena *scratch, tree_binary *to, brume_error *err)
 {

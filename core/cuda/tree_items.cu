@@ -82,6 +82,11 @@ __global__ void clear_extent(tree_extent *extent)
 
 }
 
+cudaError_t tree_load_bounds()
+{
+    return tree_load(find_bounds, clear_extent);
+}
+
 void tree_clear_extent(tree_extent *extent)
 {
     clear_extent<<<1, 3>>>(extent);

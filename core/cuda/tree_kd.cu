@@ -483,6 +483,15 @@ bool build_all(const tree_items *items, build *b, tree_kd *to, bool *fits,
 
 }
 
+cudaError_t tree_load_kd(uint32_t count)
+{
+    tree_sort_bytes(count);
+    cudaError_t code = tree_load_bounds();
+    return code ? code
+                : tree_load(fill_large, find_splits, count_sides, move_refs,
+                            make_level, begin);
+}
+
 bool tree_build_kd(const tree_items *items, tree_kd *to, brume_error *err)
 {
     build b = {};

@@ -187,6 +187,15 @@ bool place_kd(cuda_state *s, bool stays, uint64_t key, brume_error *err)
     return true;
 }
 
+cudaError_t load(const flat *f)
+{
+    uint32_t n = static_cast<uint32_t>(order_count(f));
+    if (f->order->tree == BRUME_TREE_KD)
+        return tree_load_kd(n);
+    cudaError_t code = tree_load_binary(n);
+    return code ? code : tree_load_wide();
+}
+
 }
 
 bool tree_scene_build(cuda_state *s, brume_error *err)
@@ -206,6 +215,8 @@ bool tree_scene_build(cuda_state *s, brume_error *err)
         return true;
     }
     resident_tree(s->kept, true);
+    if (!device_check(load(f), "opening", err))
+        return false;
     device_clock_mark(&s->clock, 0);
     bool good = kd ? place_kd(s, stays, key, err)
                    : place_bvh(s, stays, key, err);

@@ -145,6 +145,11 @@ __global__ void __launch_bounds__(block_size)
 
 }
 
+cudaError_t tree_load_wide()
+{
+    return tree_load(find_nodes, make_nodes);
+}
+
 bool tree_find_wide(tree_binary *b, int places, void *scratch, size_t bytes,
                     brume_error *err)
 {
