@@ -12,7 +12,7 @@ namespace
 
 /* Photons of a launch, at most: many for each thread, few enough for a stop to
  * be heard soon, and for the memory. */
-const uint64_t most_photons = 1u << 19;
+const uint64_t most_photons = 1u << 20;
 
 const int block_size = 256;
 
@@ -39,13 +39,16 @@ unsigned trace_blocks(const cuda_state *s)
     return static_cast<unsigned>(needed < most ? needed : most);
 }
 
-/* Bytes of a list of photons. */
+/* Photons that a list has room for. */
+uint64_t list_room(const cuda_state *s)
+{
+    return born_at_once(&s->frame) +
+           trace_blocks(s) * static_cast<uint64_t>(s->trace_threads);
+}
+
 size_t list_bytes(const cuda_state *s)
 {
-    uint64_t photons = born_at_once(&s->frame) +
-                       trace_blocks(s) *
-                           static_cast<uint64_t>(s->trace_threads);
-    return device_round(photons * s->births->state_bytes);
+    return device_round(list_room(s) * s->births->state_bytes);
 }
 
 /* Bytes of a list of all the field's cells, where they are of balls. */
@@ -104,6 +107,7 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
     out->lone = s->lone;
     out->list[0] = s->list[0];
     out->list[1] = s->list[1];
+    out->room = list_room(s);
     out->queue = s->queue;
     out->turn = 0;
     out->sum = s->sum;

@@ -44,6 +44,7 @@ struct trace_job {
     unsigned born;
     void *list[2];          /* of photon_state, as the stage knows it;
                                black: born to no avail                     */
+    uint64_t room;          /* of each list, for photons                   */
     photon_queue *queue;
     int turn;               /* whose list is taken from                    */
     int last;               /* 1: nothing is to be left                    */

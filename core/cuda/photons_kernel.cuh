@@ -64,10 +64,30 @@ struct layer {
     int first, count;       /* of the ring; alike in all threads           */
 };
 
-__device__ __forceinline__ photon_state *photon_list(const trace_job *job,
-                                                     int turn)
+/* Words of a photon in a list. Beside a word lies that of the next photon, so
+ * that threads share the transactions in which they write and read photons. */
+const int state_words = sizeof(photon_state) / sizeof(uint4);
+
+__device__ __forceinline__ void put_photon(const trace_job *job, int turn,
+                                           unsigned i, const photon_state *p)
 {
-    return static_cast<photon_state *>(job->list[turn]);
+    uint4 word[state_words];
+    uint4 *at = static_cast<uint4 *>(job->list[turn]) + i;
+    memcpy(word, p, sizeof *p);
+    for (int k = 0; k < state_words; k++)
+        at[static_cast<size_t>(k) * job->room] = word[k];
+}
+
+__device__ __forceinline__ photon_state get_photon(const trace_job *job,
+                                                   int turn, unsigned i)
+{
+    uint4 word[state_words];
+    const uint4 *at = static_cast<const uint4 *>(job->list[turn]) + i;
+    photon_state p;
+    for (int k = 0; k < state_words; k++)
+        word[k] = at[static_cast<size_t>(k) * job->room];
+    memcpy(&p, word, sizeof p);
+    return p;
 }
 
 /* Stores the events that wait of a warp's threads, all of them here: one after
@@ -113,7 +133,7 @@ __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
     if (idle && i >= job->queue->left[job->turn] + job->born) {
         t->next = TRACER_ENDS;
     } else if (idle) {
-        t->photon = photon_list(job, job->turn)[i];
+        t->photon = get_photon(job, job->turn, i);
         t->photon.path.count = &count->track;
         t->photon.path.boost = 1.0f;
         t->flight.event = PATH_THROUGH;
@@ -128,7 +148,7 @@ __device__ __forceinline__ void leave_photons(const trace_job *job, tracer *t)
     bool leaves = t->next == PHOTON_LANDS;
     unsigned i = take_numbers(&job->queue->left[!job->turn], leaves);
     if (leaves) {
-        photon_list(job, !job->turn)[i] = t->photon;
+        put_photon(job, !job->turn, i, &t->photon);
         t->next = TRACER_ENDS;
     }
 }
@@ -290,7 +310,7 @@ bear_photons(const __grid_constant__ trace_job job)
         photon_state p;
         if (!photon_begin(&job.scene, &job.photons, job.first + i, &p, &count))
             p.path.beta = rgb_gray(0.0f);
-        photon_list(&job, job.turn)[job.queue->left[job.turn] + i] = p;
+        put_photon(&job, job.turn, job.queue->left[job.turn] + i, &p);
     }
     store(&job.scene, event + threadIdx.x / warp_size * warp_size, &count);
     write_counts(&job, &count);

@@ -93,9 +93,7 @@ typedef struct {
     track_counters track;
 } photon_counters;
 
-/* Aligned for a GPU, whose lists of photons it writes and reads in words of 16
- * bytes then: its threads lie far apart in them, and each word is a transaction
- * of its own. */
+/* Aligned for a GPU, which keeps lists of photons in words of 16 bytes. */
 typedef struct HD_ALIGNED(16) {
     path_state path;        /* beta: power of the photon                   */
     int32_t light;          /* whose first flight this is, or -1           */
