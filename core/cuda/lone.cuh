@@ -4,6 +4,13 @@
 #ifndef CORE_CUDA_LONE_CUH
 #define CORE_CUDA_LONE_CUH
 #include "core/cuda/photons.cuh"
+#include "core/physics/lone_lay.h"
+
+/* A photon as it waits in a list. */
+struct lone_born {
+    lone_photon photon;
+    lone_weight weight;
+};
 
 /* Photons of a job are born, and come to the container or end before. */
 void lone_bear(const trace_job *job);

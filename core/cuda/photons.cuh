@@ -22,9 +22,9 @@ struct photon_totals {
 
 /* Adds the books of a warp's threads. */
 __device__ inline void count_books(photon_totals *total,
-                                   const photon_counters *c)
+                                   const photon_books *books)
 {
-#define X(name) count_warp(&total->name, static_cast<uint64_t>(c->books.name));
+#define X(name) count_warp(&total->name, static_cast<uint64_t>(books->name));
     PHOTON_BOOKS(X)
 #undef X
 }

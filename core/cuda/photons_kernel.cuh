@@ -293,7 +293,7 @@ __device__ __forceinline__ void write_counts(const trace_job *job,
     count_warp(&total->bounces, c->bounces);
     count_warp(&total->stored, c->stored);
     count_warp(&total->clipped, c->tally.clipped);
-    count_books(total, c);
+    count_books(total, &c->books);
 }
 
 __global__ void __launch_bounds__(births_at_once, blocks_of_births)

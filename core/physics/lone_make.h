@@ -57,6 +57,7 @@ HD bool lone_make_medium(const flat_scene *s, lone_scene *l)
     float drawn = at.all_a.r + at.all_s.r;
     float chance = fabsf(majorant.r - drawn);
     l->driver = majorant.r;
+    l->per_driver = 1.0f / majorant.r;
     l->sigma_s = at.all_s.r;
     l->sigma_a = at.all_a.r;
     l->ratio = at.all_s.r * (1.0f / at.all_s.r);
@@ -65,6 +66,16 @@ HD bool lone_make_medium(const flat_scene *s, lone_scene *l)
     l->null_r = chance * (1.0f / chance);
     return w.count == 1 && count.lookups == 1 && l->driver > 0.0f &&
            l->sigma_s > 0.0f && !(drawn - majorant.r * 1.00001f > 0.0f);
+}
+
+/* Whether a cell's number has 31 bits, and its place 16 along each axis. */
+HD bool lone_has_room(const flat_scene *s)
+{
+    const radiance_lattice *f = &s->field;
+    for (int i = 0; i < 3; i++)
+        if (f->bricks[i] > 4095)
+            return false;
+    return s->radiance_count / 2147483647u < (uint64_t)f->numbers;
 }
 
 /* Whether the lattice of the field holds the container. */
@@ -100,7 +111,7 @@ HD bool lone_make(const flat_scene *s, uint64_t seed, uint32_t frame,
 {
     if (!lone_has_container(s) || s->media_count != 1 || s->field.ball)
         return false;
-    if (s->field.refined)
+    if (s->field.refined || !lone_has_room(s))
         return false;
     rng r = rng_make(seed, frame, PHOTON_PASS, 0);
     const flat_shape *f = &s->shapes[0];
@@ -113,6 +124,7 @@ HD bool lone_make(const flat_scene *s, uint64_t seed, uint32_t frame,
         l->round_key[2 * i] = r.key[0] + i * RNG_STEP0;
         l->round_key[2 * i + 1] = r.key[1] + i * RNG_STEP1;
     }
+    l->per_side = 1.0f / s->field.side;
     l->covered = lone_is_covered(s);
     lone_make_law(s, l);
     l->medium = s->media[0];

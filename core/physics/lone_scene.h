@@ -23,6 +23,7 @@ typedef struct {
     float law[3];           /* law[2] / x^1.5, x = law[0] + law[1] (1 - c) */
     flat_medium medium;
     float driver;           /* its majorant                                */
+    float per_driver, per_side;     /* 1 over it, and over a cell's side   */
     float sigma_s, sigma_a; /* what happens at tentative collisions        */
     float ratio;            /* what scattering changes weights by          */
     int32_t nulls;          /* nulls may happen, and change them by        */

@@ -37,7 +37,7 @@ HD float phase_hg_sample(float g, float u, float *plus)
 {
     float h = fabsf(g), t = g < 0.0f ? 1.0f - u : u;
     float k = (1.0f - h) + h * t, d = k + h * t;
-    float near = (1.0f - h) / d, far = (1.0f + h) / d;
+    float near = fm_over_within(1.0f - h, d), far = fm_over_within(1.0f + h, d);
     float from_peak = 2.0f * near * near * (1.0f - t) * (1.0f + h * t);
     float from_back = 2.0f * far * far * t * k;
     *plus = g < 0.0f ? from_peak : from_back;
@@ -125,15 +125,22 @@ HD float phase_sample_ends(int kind, float g, float u, float *plus)
     }
 }
 
+/* The unit direction whose cosine with d is 1 - minus and plus - 1, v turns
+ * about it. */
+HD vec3 phase_turn(vec3 d, float minus, float plus, float v)
+{
+    float cosine = minus < plus ? 1.0f - minus : plus - 1.0f;
+    vec3 local = warp_around_z(cosine, fm_root_within(minus * plus), v);
+    return warp_normalize(warp_frame_to_world(warp_frame(d), local));
+}
+
 /* The unit direction of travel after a scattering, drawn with density *pdf,
  * which equals the phase function: the weight is 1. */
 HD vec3 phase_sample(int kind, float g, vec3 d, float u, float v, float *pdf)
 {
     float plus, minus = phase_sample_ends(kind, g, u, &plus);
-    float cosine = minus < plus ? 1.0f - minus : plus - 1.0f;
-    vec3 local = warp_around_z(cosine, sqrtf(minus * plus), v);
     *pdf = phase_eval_ends(kind, g, minus, plus);
-    return vec3_normalize(warp_frame_to_world(warp_frame(d), local));
+    return phase_turn(d, minus, plus, v);
 }
 
 /* POV-Ray's own phase function over 4 pi p: its types 2 to 4 have the shapes

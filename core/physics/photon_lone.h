@@ -7,7 +7,7 @@
  * nothing. What becomes of a flight is known before any of it is laid. */
 #ifndef CORE_PHYSICS_PHOTON_LONE_H
 #define CORE_PHYSICS_PHOTON_LONE_H
-#include "core/physics/lone_scene.h"
+#include "core/physics/lone_stream.h"
 #include "core/physics/photon.h"
 
 /* What is next of a photon. */
@@ -17,30 +17,53 @@ enum { LONE_FLIES, LONE_SEEKS, LONE_LAYS, LONE_LANDS, LONE_ENDS };
  * alone, or behind all surfaces. */
 enum { LONE_LEAVES = PATH_ENDED + 1, LONE_ENTERS, LONE_ESCAPES };
 
+/* What is so of a photon: no roulette is due; its weight has changed, since the
+ * flight began; the flight begins inside, whatever the rounding, or behind the
+ * first root of the container, or behind the second; flights are laid, as
+ * photon_state has it; this is the first one of a light's photon. */
+enum { LONE_LASTS = 1, LONE_CHANGED = 2, LONE_SURE = 4, LONE_BEHIND_FIRST = 8,
+       LONE_BEHIND_LAST = 16, LONE_STORED = 32, LONE_ARRIVES = 64,
+       LONE_BEHIND = LONE_BEHIND_FIRST | LONE_BEHIND_LAST };
+
+/* What each flight asks for. */
 typedef struct {
     vec3 o, d;
+    rgb lays;               /* beta over r_u, as it is                     */
+    int32_t marks;
+    float laid;             /* where the flight begins                     */
+    float t;                /* how far it is                               */
+    float tau;              /* depth to the next tentative collision, if
+                               that is drawn; else < 0                     */
+    float end;              /* of the flight, if it has been sought; < 0   */
+    int32_t ends;           /* what is there                               */
+    uint32_t events;
+    lone_stream numbers;
+} lone_photon;
+
+/* What few flights do. */
+typedef struct {
     rgb beta;               /* without MAY_TINTS its channels are alike    */
     float r_u;              /* of each channel                             */
     float power;            /* beta over r_u, mean over the channels, as it
                                was when the flight began                   */
-    rgb lays;               /* beta over r_u, as it is                     */
-    int32_t lasts;          /* no roulette is due                          */
-    int32_t changed;        /* beta or r_u have, since the flight began    */
-    float laid;             /* where the flight begins                     */
-    float t, tau;           /* as photon_flight's                          */
-    int32_t drawn;          /* tau is                                      */
-    float end;              /* of the flight, if it has been sought        */
-    int32_t sought;
-    int32_t ends, root;     /* what is at its end, and which root          */
-    int32_t after;          /* the root behind which it begins, or -1      */
-    int32_t sure;           /* it begins inside, whatever the rounding     */
-    int32_t event;          /* PATH_* or LONE_*: how it ended              */
-    int32_t stored, light;  /* as photon_state's, with those that follow   */
-    uint32_t events;
-    float nominal;
+    rgb lays;               /* as lone_photon's                            */
+    int32_t lasts;          /* LONE_LASTS                                  */
+    int32_t light;          /* whose first flight this is, and what        */
+    float nominal;          /* photon_state has of that                    */
     vec3 from;
-    rng random;
-} lone_photon;
+} lone_weight;
+
+/* What is counted of each flight. */
+typedef struct {
+    track_count rays, lookups, events;
+} lone_counts;
+
+/* How a flight has ended. */
+typedef struct {
+    float t;
+    int32_t event;          /* PATH_* or LONE_*                            */
+    uint32_t turn[2];       /* numbers for where it is scattered to        */
+} lone_end;
 
 /* ---- what a photon carries --------------------------------------------- */
 
@@ -49,427 +72,421 @@ HD rgb lone_beta(rgb beta)
     return scene_may(MAY_TINTS) ? beta : rgb_gray(beta.r);
 }
 
-HD float lone_power(const lone_photon *p)
+HD float lone_power(const lone_weight *w)
 {
-    return rgb_mean(lone_beta(p->beta)) / rgb_mean(rgb_gray(p->r_u));
+    return rgb_mean(lone_beta(w->beta)) / rgb_mean(rgb_gray(w->r_u));
 }
 
 /* What roulette goes by. */
-HD float lone_throughput(const lone_photon *p)
+HD float lone_throughput(const lone_weight *w)
 {
-    return rgb_size(lone_beta(p->beta)) / rgb_mean(rgb_gray(p->r_u));
+    return rgb_size(lone_beta(w->beta)) / rgb_mean(rgb_gray(w->r_u));
 }
 
-HD void lone_set_lays(lone_photon *p)
+HD void lone_mark(lone_photon *p, int32_t marks, bool on)
 {
-    p->lays = rgb_scale(lone_beta(p->beta),
-                        1.0f / rgb_mean(rgb_gray(p->r_u)));
+    p->marks = on ? p->marks | marks : p->marks & ~marks;
+}
+
+HD void lone_set_lays(lone_weight *w)
+{
+    w->lays = rgb_scale(lone_beta(w->beta), 1.0f / rgb_mean(rgb_gray(w->r_u)));
 }
 
 /* What follows from the weights, which few events change. */
-HD void lone_weigh(lone_photon *p)
+HD void lone_weigh(lone_weight *w)
 {
-    p->power = lone_power(p);
-    p->lasts = lone_throughput(p) * PATH_KEEPS >= 1.0f;
-    lone_set_lays(p);
-    p->changed = 0;
+    w->power = lone_power(w);
+    w->lasts = lone_throughput(w) * PATH_KEEPS >= 1.0f ? LONE_LASTS : 0;
+    lone_set_lays(w);
+}
+
+/* Takes over what the weights are now. */
+HD void lone_renew(lone_photon *p, const lone_weight *w)
+{
+    p->lays = lone_beta(w->lays);
+    p->marks = (p->marks & ~(LONE_LASTS | LONE_CHANGED)) | w->lasts;
 }
 
 /* As photon_power has it. */
-HD double lone_told(const lone_photon *p)
+HD double lone_told(const lone_weight *w)
 {
-    double power = (double)p->power;
-    return p->light >= 0 ? power * (double)p->nominal : power;
+    double power = (double)w->power;
+    return w->light >= 0 ? power * (double)w->nominal : power;
 }
 
-/* What a light's photons never change is not kept with each of them. */
-HD rng *lone_random(const lone_scene *l, lone_photon *p)
-{
-    p->random.key[0] = l->key[0];
-    p->random.key[1] = l->key[1];
-    p->random.counter[2] = PHOTON_PASS;
-    return &p->random;
-}
+/* ---- where it is ------------------------------------------------------- */
 
-/* As rng_u32, with what all photons' rounds share. */
-HD uint32_t lone_u32(const lone_scene *l, lone_photon *p)
+/* A row of a map, as it comes: lone_scene.deep has room for its rounding. */
+HD float lone_row(const float *m, vec3 p)
 {
-    rng *r = &p->random;
-    if (r->used == 4u) {
-        uint32_t c[4];
-        c[0] = r->counter[0];
-        c[1] = r->counter[1];
-        c[2] = PHOTON_PASS;
-        c[3] = r->counter[3]++;
-        for (int i = 0; i < RNG_ROUNDS; i++)
-            rng_philox_round(c, l->round_key[2 * i], l->round_key[2 * i + 1]);
-        for (int i = 0; i < 4; i++)
-            r->word[i] = c[i];
-        r->used = 0u;
-    }
-    return rng_take(r);
-}
-
-HD float lone_float(const lone_scene *l, lone_photon *p)
-{
-    return rng_float_of(lone_u32(l, p));
-}
-
-HD float lone_fine(const lone_scene *l, lone_photon *p)
-{
-    return rng_fine_of(lone_u32(l, p));
-}
-
-/* The numbers of a depth; few need it, as a collision draws the next one before
- * it is known whether the flight goes on. */
-typedef struct {
-    uint32_t x, y;
-} lone_draw;
-
-HD lone_draw lone_draw_depth(const lone_scene *l, lone_photon *p)
-{
-    lone_draw n;
-    n.x = lone_u32(l, p);
-    n.y = rng_depth_is_end(n.x) ? lone_u32(l, p) : 0u;
-    return n;
-}
-
-HD float lone_depth(const lone_scene *l, lone_photon *p)
-{
-    lone_draw n = lone_draw_depth(l, p);
-    return rng_depth_of(n.x, n.y);
+#ifdef __CUDA_ARCH__
+    return fmaf(m[0], p.x, fmaf(m[1], p.y, fmaf(m[2], p.z, m[3])));
+#else
+    return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
+#endif
 }
 
 HD bool lone_is_deep(const lone_scene *l, vec3 p)
 {
-    vec3 q = affine_point(&l->to_local, p);
+    const float *m = l->to_local.m;
+    vec3 q = vec3_make(lone_row(m, p), lone_row(m + 4, p), lone_row(m + 8, p));
     if (l->ball)
         return vec3_dot(q, q) < l->deep * l->deep;
-    return fabsf(q.x) < l->deep && fabsf(q.y) < l->deep && fabsf(q.z) < l->deep;
+    return hd_max(hd_max(fabsf(q.x), fabsf(q.y)), fabsf(q.z)) < l->deep;
 }
 
 /* A flight begins at `laid`. */
-HD void lone_take_off(lone_photon *p, track_counters *count)
+HD void lone_take_off(lone_photon *p, track_count *rays)
 {
     p->t = p->laid;
-    p->drawn = p->sought = 0;
-    count->rays++;
+    p->tau = p->end = -1.0f;
+    (*rays)++;
 }
 
 /* What is left of a photon that came into the container. */
 HD void lone_from(const lone_scene *l, const photon_state *from,
-                  lone_photon *p)
+                  lone_photon *p, lone_weight *w)
 {
     const path_state *a = &from->path;
     bool entered = a->after.shape >= 0;
     float far = hd_max(fabsf(a->o.x), hd_max(fabsf(a->o.y), fabsf(a->o.z)));
     p->o = a->o;
     p->d = a->d;
-    p->beta = a->beta;
-    p->r_u = a->r_u.r;
-    lone_weigh(p);
+    p->marks = 0;
+    lone_mark(p, LONE_STORED, from->stored);
+    lone_mark(p, LONE_ARRIVES, from->light >= 0);
+    lone_mark(p, a->after.root == 0 ? LONE_BEHIND_FIRST : LONE_BEHIND_LAST,
+              entered);
+    lone_mark(p, LONE_SURE, entered ? hd_max(far, a->after.t) < LONE_NEAR
+                                    : lone_is_deep(l, a->o));
+    w->beta = a->beta;
+    w->r_u = a->r_u.r;
+    w->light = from->light;
+    w->nominal = from->nominal;
+    w->from = from->from;
+    lone_weigh(w);
+    lone_renew(p, w);
     p->laid = a->after.t;
-    p->after = entered ? a->after.root : -1;
-    p->sure = entered ? hd_max(far, a->after.t) < LONE_NEAR
-                      : lone_is_deep(l, a->o);
-    p->stored = from->stored;
-    p->light = from->light;
+    p->ends = LONE_ESCAPES;
     p->events = from->events;
-    p->nominal = from->nominal;
-    p->from = from->from;
-    p->random = a->random;
+    p->numbers.path[0] = a->random.counter[0];
+    p->numbers.path[1] = a->random.counter[1];
+    lone_set_random(&p->numbers, &a->random);
+}
+
+/* Roots of the container along a line, in order; false: it has none. */
+HD bool lone_roots(const lone_scene *l, vec3 from, vec3 along, float *root)
+{
+    int surface[SHAPE_MAX_ROOTS];
+    vec3 o = affine_point(&l->to_local, from);
+    vec3 d = affine_vector(&l->to_local, along);
+    return (l->ball ? shape_sphere_roots(o, d, root)
+                    : shape_box_roots(o, d, root, surface)) > 0;
+}
+
+/* Comes to the container, from outside, by the way of all scenes; false: it
+ * has ended. */
+HD_APART bool lone_come(const flat_scene *s, photon_state *g,
+                        photon_counters *c)
+{
+    photon_flight f;
+    f.event = PATH_THROUGH;
+    while (container_count(&g->path.inside) == 0) {
+        photon_take_off(s, g, c, &f);
+        photon_seek(s, g, &f);
+        photon_passes(s, g, c, &f);
+        while (f.lays)
+            photon_lay(s, g, c, &f);
+        g->events++;
+        if (f.hit.shape < 0) {
+            photon_end(g, &c->books.escaped);
+            return false;
+        }
+        shadow_cross(s, &f.hit, &g->path.inside);
+        g->path.after = f.hit;
+    }
+    return true;
+}
+
+/* The same, for photons that lay nothing there and come in at the first root
+ * alone. */
+HD bool lone_comes(const flat_scene *s, const lone_scene *l, photon_state *g,
+                   photon_counters *c)
+{
+    float root[SHAPE_MAX_ROOTS];
+    path_state *a = &g->path;
+    if (container_count(&a->inside) > 0)
+        return true;
+    if (!g->stored && a->after.shape < 0 &&
+        lone_roots(l, a->o, a->d, root) && root[0] > 0.0f &&
+        root[0] < s->far) {
+        c->track.rays++;
+        g->events++;
+        a->after.shape = a->after.root = 0;
+        a->after.t = root[0];
+        return true;
+    }
+    HD_COPY(photon_state, g);
+    HD_COPY(photon_counters, c);
+    bool comes = lone_come(s, HD_COPIED(g), HD_COPIED(c));
+    HD_RETURN(g);
+    HD_RETURN(c);
+    return comes;
 }
 
 /* A photon from its birth to the container; false: it has ended. */
 HD bool lone_begin(const flat_scene *s, const lone_scene *l,
                    const photon_job *job, uint64_t photon, lone_photon *p,
-                   photon_counters *c)
+                   lone_weight *w, photon_counters *c)
 {
     photon_state g;
-    photon_flight f;
-    if (!photon_begin(s, job, photon, &g, c))
+    if (!photon_begin(s, job, photon, &g, c) || !lone_comes(s, l, &g, c))
         return false;
-    f.event = PATH_THROUGH;
-    while (container_count(&g.path.inside) == 0) {
-        photon_take_off(s, &g, c, &f);
-        photon_seek(s, &g, &f);
-        photon_passes(s, &g, c, &f);
-        while (f.lays)
-            photon_lay(s, &g, c, &f);
-        g.events++;
-        if (f.hit.shape < 0) {
-            photon_end(&g, &c->books.escaped);
-            return false;
-        }
-        shadow_cross(s, &f.hit, &g.path.inside);
-        g.path.after = f.hit;
-    }
-    lone_from(l, &g, p);
-    lone_take_off(p, &c->track);
+    lone_from(l, &g, p, w);
+    lone_take_off(p, &c->track.rays);
     return true;
 }
 
 /* ---- flights ----------------------------------------------------------- */
 
-/* The flight has come to its end. */
-HD int lone_passes(lone_photon *p)
-{
-    p->t = p->end;
-    p->event = p->ends;
-    return LONE_LAYS;
-}
-
-/* Seeks its end, as bvh_nearest does: the first root behind the one at which it
- * began. Where rounding has put its beginning behind all of them, it meets no
- * medium. */
+/* Seeks the end of the flight, as bvh_nearest does: the first root behind the
+ * one at which it began. Where rounding has put its beginning behind all of
+ * them, it meets no medium. */
 HD void lone_seek(const flat_scene *s, const lone_scene *l, lone_photon *p)
 {
     float root[SHAPE_MAX_ROOTS];
-    int surface[SHAPE_MAX_ROOTS];
-    vec3 o = affine_point(&l->to_local, p->o);
-    vec3 d = affine_vector(&l->to_local, p->d);
-    int roots = l->ball ? shape_sphere_roots(o, d, root)
-                        : shape_box_roots(o, d, root, surface);
-    p->sought = 1;
+    bool meets = lone_roots(l, p->o, p->d, root);
     p->end = s->far;
     p->ends = LONE_ESCAPES;
     for (int i = 1; i >= 0; i--) {
+        if (!meets || !(root[i] < s->far))
+            continue;
         bool behind = root[i] > p->laid ||
-                      (root[i] == p->laid && p->after >= 0 && i > p->after);
-        if (roots == 0 || !behind || !(root[i] < s->far))
+                      (root[i] == p->laid && i == 1 &&
+                       (p->marks & LONE_BEHIND_FIRST));
+        if (!behind)
             continue;
         p->end = root[i];
-        p->root = i;
         p->ends = i == 1 ? LONE_LEAVES : LONE_ENTERS;
     }
 }
 
-/* A tentative collision: the event, or on. */
-HD int lone_collide(const lone_scene *l, lone_photon *p)
+/* The flight comes to the end that was sought. */
+HD int lone_passes(const lone_photon *p, lone_end *f)
 {
-    lone_draw next = lone_draw_depth(l, p);
-    float x = lone_fine(l, p) * l->driver;
+    f->t = p->end;
+    f->event = p->ends;
+    return LONE_LAYS;
+}
+
+/* What a collision changes weights by. */
+HD void lone_scale(lone_weight *w, float beta, float r_u)
+{
+    w->beta = rgb_scale(lone_beta(w->beta), beta);
+    w->r_u *= r_u;
+    lone_set_lays(w);
+}
+
+/* A tentative collision at t: the event, or on. What is laid of a flight is not
+ * changed by its end. */
+HD int lone_collide(const lone_scene *l, lone_photon *p, lone_weight *w,
+                    const lone_numbers *n, float t, lone_end *f)
+{
+    float x = rng_fine_of(n->choice) * l->driver;
     bool scatters = x < l->sigma_s;
-    bool on = l->nulls && !scatters && !(x - l->sigma_s < l->sigma_a);
-    p->event = scatters ? PATH_SCATTERED : PATH_ENDED;
+    f->t = t;
+    f->event = scatters ? PATH_SCATTERED : PATH_ENDED;
+    f->turn[0] = n->turn[0];
+    f->turn[1] = n->turn[1];
     if (scatters && l->ratio != 1.0f) {
-        p->beta = rgb_scale(lone_beta(p->beta), l->ratio);
-        p->r_u *= l->ratio;
-        p->changed = 1;
+        lone_scale(w, l->ratio, l->ratio);
+        p->marks |= LONE_CHANGED;
     }
-    if (!on)
+    if (!l->nulls || scatters || x - l->sigma_s < l->sigma_a)
         return LONE_LAYS;
-    p->beta = rgb_scale(lone_beta(p->beta), l->null_beta);
-    p->r_u *= l->null_r;
-    p->changed = 1;
-    p->tau = rng_depth_of(next.x, next.y);
-    p->drawn = 1;
-    lone_set_lays(p);
+    lone_scale(w, l->null_beta, l->null_r);
+    p->marks |= LONE_CHANGED;
+    p->lays = lone_beta(w->lays);
+    p->t = t;
+    p->tau = rng_depth_of(n->next[0], n->next[1]);
     return LONE_FLIES;
 }
 
-/* On to the next tentative collision, tau being drawn, and through it. */
-HD int lone_step(const lone_scene *l, lone_photon *p, track_counters *count)
+/* On to the next tentative collision, and through it. Where the flight may end
+ * before, nothing is taken until its end is sought. */
+HD int lone_fly(const lone_scene *l, lone_photon *p, lone_weight *w,
+                const uint32_t *words, lone_end *f, lone_counts *count)
 {
-    float t = p->t + p->tau / l->driver;
-    bool there = p->sought ? p->tau < l->driver * (p->end - p->t)
-                           : p->sure &&
-                             lone_is_deep(l, vec3_mad(p->o, t, p->d));
-    if (there && !(p->sought && p->ends == LONE_ESCAPES)) {
-        p->t = t;
-        count->lookups++;
-        return lone_collide(l, p);
-    }
-    return p->sought ? lone_passes(p) : LONE_SEEKS;
-}
-
-HD int lone_fly(const lone_scene *l, lone_photon *p, track_counters *count)
-{
-    if (!p->drawn)
-        p->tau = lone_depth(l, p);
-    p->drawn = 0;
-    return lone_step(l, p, count);
+    bool sought = p->end >= 0.0f;
+    if (sought && p->ends == LONE_ESCAPES)
+        return lone_passes(p, f);
+    bool drawn = l->nulls && p->tau >= 0.0f;
+    lone_numbers n = lone_look(l, &p->numbers, words, drawn);
+    float tau = drawn ? p->tau : rng_depth_of(n.depth[0], n.depth[1]);
+    float t = p->t + fm_over_known(tau, l->driver, l->per_driver);
+    bool there = sought ? tau < l->driver * (p->end - p->t)
+                        : (p->marks & LONE_SURE) &&
+                          lone_is_deep(l, vec3_mad(p->o, t, p->d));
+    if (!there && !sought)
+        return LONE_SEEKS;
+    int next = there ? lone_collide(l, p, w, &n, t, f) : lone_passes(p, f);
+    bool turns = f->event == PATH_SCATTERED && next == LONE_LAYS;
+    count->lookups += there;
+    p->numbers.next += !there ? n.fly : turns ? n.collide + 2u : n.collide;
+    return next;
 }
 
 /* ---- events ------------------------------------------------------------ */
 
-/* The end of a light's first flight. */
-HD vec3 lone_arrive(const flat_scene *s, lone_photon *p, photon_counters *c,
-                    float factor)
+/* After a flight that has changed the weight. */
+HD_APART void lone_change(lone_weight *w, photon_books *books)
 {
-    double before = lone_told(p);
-    photon_first first = photon_first_at(s, p->light, p->o, p->d, p->from,
-                                         p->t);
-    p->beta = rgb_scale(lone_beta(p->beta), first.law * factor);
-    p->light = -1;
-    lone_weigh(p);
-    photon_book(&c->books.units, (double)p->power - before);
-    return first.d;
+    double before = lone_told(w);
+    lone_weigh(w);
+    photon_book(&books->media, before - lone_told(w));
 }
 
-/* Roulette, as path_survives. */
-HD bool lone_survives(const lone_scene *l, lone_photon *p, photon_counters *c)
+/* The end of a light's first flight, o + t d: where the light comes from. */
+HD_APART vec3 lone_arrive(const flat_scene *s, lone_weight *w,
+                          photon_books *books, vec3 o, vec3 d, float t,
+                          float factor)
 {
-    if (p->lasts)
-        return true;
-    float left = lone_throughput(p), q = hd_max(left * PATH_KEEPS, 0.05f);
-    float before = p->power;
-    bool alive = left > 0.0f && rng_chance(lone_random(l, p), q);
-    if (alive) {
-        p->beta = rgb_scale(lone_beta(p->beta), 1.0f / q);
-        lone_weigh(p);
+    double before = lone_told(w);
+    photon_first at = photon_first_at(s, w->light, o, d, w->from, t);
+    w->beta = rgb_scale(lone_beta(w->beta), at.law * factor);
+    w->light = -1;
+    lone_weigh(w);
+    photon_book(&books->units, (double)w->power - before);
+    return at.d;
+}
+
+/* Roulette, as path_survives: the numbers behind it, and whether it is won. */
+typedef struct {
+    lone_stream numbers;
+    bool alive;
+} lone_fate;
+
+HD_APART lone_fate lone_roulette(const lone_scene *l, lone_stream numbers,
+                                 lone_weight *w, photon_books *books)
+{
+    lone_fate out;
+    float left = lone_throughput(w), q = hd_max(left * PATH_KEEPS, 0.05f);
+    float before = w->power;
+    rng r = lone_random(l, &numbers);
+    out.alive = left > 0.0f && rng_chance(&r, q);
+    out.numbers = numbers;
+    lone_set_random(&out.numbers, &r);
+    if (out.alive) {
+        w->beta = rgb_scale(lone_beta(w->beta), 1.0f / q);
+        lone_weigh(w);
     }
-    photon_book(&c->books.roulette,
-                (double)before - (alive ? (double)p->power : 0.0));
-    return alive;
+    photon_book(&books->roulette,
+                (double)before - (out.alive ? (double)w->power : 0.0));
+    return out;
+}
+
+/* 1 - cosine of a scattering, and 1 + cosine. */
+typedef struct {
+    float minus, plus;
+} lone_cosine;
+
+HD_APART lone_cosine lone_cosine_of(int kind, float g, float u)
+{
+    lone_cosine out;
+    out.minus = phase_sample_ends(kind, g, u, &out.plus);
+    return out;
+}
+
+/* phase_sample, where one kind of phase function is most often met. */
+HD vec3 lone_turn(const flat_medium *m, vec3 d, float u, float v)
+{
+    lone_cosine c;
+    if (m->phase == PHASE_HENYEY_GREENSTEIN)
+        c.minus = phase_hg_sample(m->g, u, &c.plus);
+    else
+        c = lone_cosine_of(m->phase, m->g, u);
+    return phase_turn(d, c.minus, c.plus, v);
 }
 
 HD int lone_scatter(const flat_scene *s, const lone_scene *l, lone_photon *p,
-                    photon_counters *c, track_counters *count)
+                    lone_weight *w, const lone_end *f, photon_books *books,
+                    lone_counts *count)
 {
     const flat_medium *m = &l->medium;
-    vec3 d = p->d, at = vec3_mad(p->o, p->t, d);
-    c->events++;
-    if (p->light >= 0) {
-        bool seen = s->lights[p->light].media_interaction != 0;
-        d = lone_arrive(s, p, c, phase_pov_scale(m->phase));
-        if (!seen) {
-            photon_book(&c->books.media, (double)p->power);
-            return LONE_ENDS;
-        }
+    vec3 d = p->d, at = vec3_mad(p->o, f->t, d);
+    bool seen = true;
+    count->events++;
+    if (p->marks & LONE_ARRIVES) {
+        seen = s->lights[w->light].media_interaction != 0;
+        d = lone_arrive(s, w, books, p->o, d, f->t,
+                        phase_pov_scale(m->phase));
+        lone_renew(p, w);
     }
-    float pdf, u = lone_float(l, p);
-    p->d = phase_sample(m->phase, m->g, d, u, lone_float(l, p), &pdf);
+    if (!seen) {
+        photon_book(&books->media, (double)w->power);
+        return LONE_ENDS;
+    }
+    p->d = lone_turn(m, d, rng_float_of(f->turn[0]), rng_float_of(f->turn[1]));
     p->o = at;
     p->laid = 0.0f;
-    p->after = -1;
     /* A collision at an end that was not sought is deep inside. */
-    p->sure = !p->sought || lone_is_deep(l, at);
-    p->stored = 1;
-    if (!lone_survives(l, p, c))
-        return LONE_ENDS;
-    lone_take_off(p, count);
+    bool sure = p->end < 0.0f || lone_is_deep(l, at);
+    p->marks = (p->marks & LONE_LASTS) | LONE_STORED | (sure ? LONE_SURE : 0);
+    if (!(p->marks & LONE_LASTS)) {
+        lone_fate fate = lone_roulette(l, p->numbers, w, books);
+        p->numbers = fate.numbers;
+        if (!fate.alive)
+            return LONE_ENDS;
+        lone_renew(p, w);
+    }
+    lone_take_off(p, &count->rays);
     return LONE_FLIES;
 }
 
-/* What comes after a flight, which has been laid. */
-HD int lone_land(const flat_scene *s, const lone_scene *l, lone_photon *p,
-                 photon_counters *c, track_counters *count)
+/* Goes on behind the container's surface. */
+HD int lone_cross(const flat_scene *s, lone_photon *p, const lone_weight *w,
+                  const lone_end *f, photon_books *books, lone_counts *count)
 {
-    if (p->changed) {
-        double before = lone_told(p);
-        lone_weigh(p);
-        photon_book(&c->books.media, before - lone_told(p));
-    }
-    if (++p->events > PHOTON_EVENTS) {
-        photon_book(&c->books.dropped, lone_told(p));
-        return LONE_ENDS;
-    }
-    if (p->event == PATH_SCATTERED)
-        return lone_scatter(s, l, p, c, count);
-    if (p->event == PATH_ENDED) {
-        photon_book(&c->books.media, lone_told(p));
-        return LONE_ENDS;
-    }
-    if (p->event == LONE_ESCAPES) {
-        photon_book(&c->books.escaped, lone_told(p));
-        return LONE_ENDS;
-    }
-    if (rgb_is_black(lone_beta(p->beta)))
-        return LONE_ENDS;
+    bool leaves = f->event == LONE_LEAVES;
     p->laid = p->end;
-    p->after = p->root;
-    p->sure = 0;
-    lone_take_off(p, count);
-    if (p->event == LONE_ENTERS)
+    lone_mark(p, LONE_SURE | LONE_BEHIND, false);
+    lone_mark(p, leaves ? LONE_BEHIND_LAST : LONE_BEHIND_FIRST, true);
+    lone_take_off(p, &count->rays);
+    if (!leaves)
         return LONE_FLIES;
     p->end = s->far;
     p->ends = LONE_ESCAPES;
-    if (p->stored)
-        return lone_passes(p);
+    if (p->marks & LONE_STORED)
+        return LONE_FLIES;
     p->events++;
-    photon_book(p->events > PHOTON_EVENTS ? &c->books.dropped
-                                          : &c->books.escaped, lone_told(p));
+    photon_book(p->events > PHOTON_EVENTS ? &books->dropped : &books->escaped,
+                lone_told(w));
     return LONE_ENDS;
 }
 
-/* ---- laying ------------------------------------------------------------ */
-
-/* Floor of a number well within those of 32 bits. */
-HD int lone_floor(float x)
+/* What comes after a flight, of which it is known what is laid. */
+HD int lone_land(const flat_scene *s, const lone_scene *l, lone_photon *p,
+                 lone_weight *w, const lone_end *f, photon_books *books,
+                 lone_counts *count)
 {
-#ifdef __CUDA_ARCH__
-    return __float2int_rd(x);
-#else
-    return hd_floor(x);
-#endif
-}
-
-/* radiance_begin for a flight whose both ends are inside of the lattice. */
-HD void lone_begin_inside(const flat_scene *s, vec3 o, vec3 d, float t0,
-                          float t1, radiance_walk *w)
-{
-    const radiance_lattice *f = &s->field;
-    radiance_set_out(f, o, t0, t1, w);
-    for (int i = 0; i < 3; i++) {
-        float along = vec3_get(d, i) / f->side;
-        int c = lone_floor(vec3_get(w->o, i) + t0 * along);
-        int last = 8 * f->bricks[i] - 1;
-        w->inverse[i] = walk_inverse(along);
-        w->cell[i] = c < 0 ? 0 : c > last ? last : c;
-        w->next[i] = walk_plane(vec3_get(w->o, i), w->inverse[i], w->cell[i]);
+    if (p->marks & LONE_CHANGED) {
+        lone_change(w, books);
+        lone_renew(p, w);
     }
-}
-
-/* Begins to lay the flight; false: there is nothing to lay. */
-HD bool lone_lays(const flat_scene *s, const lone_scene *l,
-                  const lone_photon *p, const radiance_tally *t,
-                  radiance_walk *w)
-{
-    if (!p->stored || !t->sum || !(p->t > p->laid))
-        return false;
-    if (p->sought || !p->sure || p->after >= 0 || !l->covered)
-        return radiance_begin(s, p->o, p->d, p->laid, p->t, w);
-    lone_begin_inside(s, p->o, p->d, p->laid, p->t, w);
-    return true;
-}
-
-/* radiance_deposit. */
-HD void lone_deposit(const flat_scene *s, const lone_scene *l,
-                     radiance_tally *t, int64_t cell, vec3 p, vec3 d,
-                     rgb value)
-{
-    if (!l->peaked) {
-        radiance_deposit(s, t, cell, p, d, value);
-        return;
+    bool dropped = ++p->events > PHOTON_EVENTS;
+    if (!dropped && f->event == PATH_SCATTERED)
+        return lone_scatter(s, l, p, w, f, books, count);
+    bool escapes = f->event == LONE_ESCAPES;
+    if (dropped || f->event == PATH_ENDED || escapes) {
+        photon_book(dropped ? &books->dropped : escapes ? &books->escaped
+                                                        : &books->media,
+                    lone_told(w));
+        return LONE_ENDS;
     }
-    if (radiance_clips(t, value))
-        return;
-    vec3 off = vec3_sub(d, radiance_to_eye(s, p));
-    float x = l->law[0] + l->law[1] * (0.5f * vec3_dot(off, off));
-    radiance_add_rgb(t->sum + cell * s->field.numbers + s->field.eye,
-                     rgb_scale(value, l->law[2] / (x * sqrtf(x))));
-}
-
-/* radiance_lay for a field whose cells are of one size. */
-HD bool lone_lay(const flat_scene *s, const lone_scene *l, radiance_tally *t,
-                 radiance_walk *w, const lone_photon *p)
-{
-    const radiance_lattice *f = &s->field;
-    const int32_t *at = w->cell;
-    float from = w->t;
-    int in = ((at[2] & 7) * 8 + (at[1] & 7)) * 8 + (at[0] & 7);
-    int32_t slot = radiance_slot(s, at[0], at[1], at[2]);
-    float next = hd_min(w->next[0], hd_min(w->next[1], w->next[2]));
-    w->t = hd_max(w->t, hd_min(next, w->end));
-    bool more = w->t < w->end && radiance_step(s, w);
-    float length = w->t - from;
-    if (slot < 0 || !(length > 0.0f))
-        return more;
-    lone_deposit(s, l, t, (int64_t)slot * 512 + in,
-                 vec3_mad(p->o, from + 0.5f * length, p->d), p->d,
-                 rgb_scale(lone_beta(p->lays), length / f->side));
-    return more;
+    if (rgb_is_black(lone_beta(w->beta)))
+        return LONE_ENDS;
+    return lone_cross(s, p, w, f, books, count);
 }
 
 #endif

@@ -157,7 +157,7 @@ HD float rng_minus_log(float h, bool rest)
     if (rest && n == 0)
         f = -h;
     else if (rest)
-        extra = (-h - (x - 1.0f)) / x;
+        extra = fm_over_within(-h - (x - 1.0f), x);
     return -fm_log_reduced(f, n, extra);
 }
 

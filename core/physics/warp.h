@@ -12,6 +12,13 @@
 #define WARP_INV_4PI 0.0795774715f
 #define WARP_2PI 6.28318531f
 
+/* vec3_normalize for vectors that are neither huge nor tiny, but 0. */
+HD vec3 warp_normalize(vec3 a)
+{
+    float l = fm_root_within(vec3_dot(a, a));
+    return l > 0.0f ? vec3_scale(a, fm_inverse_within(l)) : a;
+}
+
 /* Right-handed, orthonormal. */
 typedef struct { vec3 x, y, z; } warp_basis;
 
@@ -21,7 +28,7 @@ HD warp_basis warp_frame(vec3 n)
 {
     warp_basis f;
     float sign = n.z < 0.0f ? -1.0f : 1.0f;
-    float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+    float a = -fm_inverse_within(sign + n.z), b = n.x * n.y * a;
     f.x = vec3_make(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
     f.y = vec3_make(b, sign + n.y * n.y * a, -n.y);
     f.z = n;
@@ -39,7 +46,7 @@ HD vec3 warp_frame_to_world(warp_basis f, vec3 local)
 HD vec3 warp_around_z(float cosine, float sine, float v)
 {
     float s, c;
-    fm_sincos(WARP_2PI * v, &s, &c);
+    fm_sincos_within(WARP_2PI * v, &s, &c);
     return vec3_make(sine * c, sine * s, cosine);
 }
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/photons.h"
-#include "core/physics/photon_lone.h"
+#include "core/physics/lone_lay.h"
 #include "core/radiance.h"
 
 #define PHOTONS 20000u
@@ -54,26 +54,38 @@ static void run_one(const flat_scene *s, const lone_scene *l,
                     const photon_job *job, uint64_t i, photon_counters *c)
 {
     lone_photon p;
-    radiance_walk lays;
-    int next = lone_begin(s, l, job, i, &p, c) ? LONE_FLIES : LONE_ENDS;
+    lone_weight w;
+    uint32_t words[LONE_WORDS];
+    lone_end f;
+    lone_line line;
+    lone_walk lays;
+    lone_counts n = {0, 0, 0};
+    memset(&p, 0, sizeof p);
+    memset(&f, 0, sizeof f);
+    int next = lone_begin(s, l, job, i, &p, &w, c) ? LONE_FLIES : LONE_ENDS;
     while (next != LONE_ENDS)
         switch (next) {
         case LONE_FLIES:
-            next = lone_fly(l, &p, &c->track);
+            while (lone_ready(&p.numbers) < LONE_NEEDS)
+                lone_draw(l, &p.numbers, words);
+            next = lone_fly(l, &p, &w, words, &f, &n);
             break;
         case LONE_SEEKS:
             lone_seek(s, l, &p);
-            next = lone_step(l, &p, &c->track);
+            next = LONE_FLIES;
             break;
         case LONE_LAYS:
-            if (lone_lays(s, l, &p, &c->tally, &lays))
-                while (lone_lay(s, l, &c->tally, &lays, &p))
+            if (lone_lays(s, l, &p, &f, &c->tally, &line, &lays))
+                while (lone_lay(s, l, &c->tally, &line, &lays))
                     ;
             next = LONE_LANDS;
             break;
         default:
-            next = lone_land(s, l, &p, c, &c->track);
+            next = lone_land(s, l, &p, &w, &f, &c->books, &n);
         }
+    c->events += n.events;
+    c->track.rays += n.rays;
+    c->track.lookups += n.lookups;
 }
 
 static void same_book(const char *name, const char *what, double a, double b)
