@@ -130,11 +130,17 @@ const void *upload_array(cuda_state *s, const void *from, size_t bytes,
     if (stays(s, from, bytes))
         return resident_take(s->kept, from, bytes, err);
     void *to = device_take(&s->arena, bytes);
-    bool good = from == s->frame.flat->view.radiance
-                    ? device_check(cudaMemsetAsync(to, 0, bytes),
-                                   "clearing the field", err)
-                    : upload_put(&s->to, to, from, bytes, err);
+    bool good = from == s->frame.flat->view.radiance ||
+                upload_put(&s->to, to, from, bytes, err);
     return good ? to : nullptr;
+}
+
+bool clear_field(cuda_state *s, brume_error *err)
+{
+    size_t bytes = s->frame.flat->view.radiance_count * sizeof *s->cells;
+    s->cells = const_cast<float *>(s->job.scene.radiance);
+    return device_check(cudaMemsetAsync(s->cells, 0, bytes),
+                        "clearing the field", err);
 }
 
 sole_field describe_field(const flat_scene *from, int field)
@@ -187,10 +193,9 @@ bool upload(cuda_state *s, brume_error *err)
     }
     SCENE_ARRAYS(X)
 #undef X
+    good = good && upload_flush(&s->to, err) && clear_field(s, err);
     resident_end(s->kept, frames_between(s));
-    s->cells = const_cast<float *>(s->job.scene.radiance);
-    return good && upload_flush(&s->to, err) &&
-           device_clock_stop(&s->clock, 1, "the upload", err) &&
+    return good && device_clock_stop(&s->clock, 1, "the upload", err) &&
            device_clock_add(&s->clock, 0, &s->spent.upload);
 }
 
@@ -324,7 +329,8 @@ void *try_open(const backend_frame *frame, brume_error *err)
     choose_photons(s);
     describe_job(&s->job, frame);
     if (open_device(s, err) &&
-        upload_new(&s->to, resident_spare(s->kept), err) &&
+        upload_new(&s->to, s->frame.options->threads, resident_spare(s->kept),
+                   err) &&
         device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         tree_scene_build(s, err) && start_film(s, err) &&
         photons_open(s, err) && sample_warm(s, err) && photons_warm(s, err))

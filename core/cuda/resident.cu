@@ -67,13 +67,16 @@ void release(void *set)
     delete it;
 }
 
-/* Where there is no room, what this frame does not use goes. */
+/* Where there is no room, what this frame does not use goes, once it has been
+ * copied from. */
 bool allocate(resident_set *set, resident *r, brume_error *err)
 {
     void *memory = nullptr;
     cudaError_t code = device_new(&memory, r->bytes);
     if (code != cudaSuccess) {
         cudaGetLastError();
+        if (!upload_flush(set->to, err))
+            return false;
         drop(set, 0);
         code = device_new(&memory, r->bytes);
     }
@@ -128,13 +131,8 @@ bool send(resident_set *set, const resident *r, const parcel *p,
                              : static_cast<const char *>(host) + p->from;
     char *to = r->device + p->from;
     set->uploaded += there ? 0 : p->size;
-    if (p->size == 0)
-        return true;
-    if (!there)
-        return upload_put(set->to, to, from, p->size, err);
-    return upload_flush(set->to, err) &&
-           device_check(cudaMemcpy(to, from, p->size, cudaMemcpyDeviceToDevice),
-                        "uploading the scene", err);
+    return there ? upload_move(set->to, to, from, p->size, err)
+                 : upload_put(set->to, to, from, p->size, err);
 }
 
 bool send_pieces(resident_set *set, const resident *r, const void *host,

@@ -1,31 +1,47 @@
 /* upload.cuh - copies to the device through memory that it reads by itself:
- * while it reads one part, others are filled; those of a large array by several
- * threads. A plain copy waits for a single thread of the driver's. */
+ * what is put waits until all of a frame is known, then threads fill parts of
+ * that memory while the device reads others. A plain copy waits for a single
+ * thread of the driver's. */
 #ifndef CORE_CUDA_UPLOAD_CUH
 #define CORE_CUDA_UPLOAD_CUH
 #include <atomic>
 #include "core/cuda/device.cuh"
 
-/* Threads that fill parts, each two in turn. */
-enum { UPLOAD_THREADS = 4, UPLOAD_PARTS = 2 * UPLOAD_THREADS };
+/* Parts that are filled or read at once. */
+enum { UPLOAD_PARTS = 4 };
+
+/* Bytes that wait; `from` may be the device's. */
+struct upload_item {
+    char *to;
+    const char *from;
+    size_t bytes;
+};
+
+struct upload_list {
+    upload_item *item;
+    size_t count, room;
+};
 
 struct uploader {
-    int device;
+    int device, threads;
     char *memory;               /* of all parts                            */
     cudaEvent_t gone[UPLOAD_PARTS];     /* a part has been read            */
-    int which;                  /* that waits, or is next                  */
-    char *to;                   /* where it goes                           */
-    size_t used;                /* so many bytes of it                     */
+    upload_list put, moved;     /* from the host, and on the device        */
     size_t set_aside;           /* of the memory, anew                     */
     std::atomic<char *> *spare; /* where it goes afterwards, or NULL       */
 };
 
-/* Memory that a device reads takes long to get: some may wait in *spare. */
-bool upload_new(uploader *u, std::atomic<char *> *spare, brume_error *err);
+/* Memory that a device reads takes long to get: some may wait in *spare. So
+ * many threads, as parallel_for, but not more than help. */
+bool upload_new(uploader *u, int threads, std::atomic<char *> *spare,
+                brume_error *err);
 void upload_free(uploader *u);
-/* `from` may change afterwards. What is small waits for its neighbours. */
+/* Bytes of the host that stay what they are until the flush. */
 bool upload_put(uploader *u, void *to, const void *from, size_t bytes,
                 brume_error *err);
+/* Bytes of the device, among them what was put or moved before. */
+bool upload_move(uploader *u, void *to, const void *from, size_t bytes,
+                 brume_error *err);
 /* What waits is on its way: before what is launched next. */
 bool upload_flush(uploader *u, brume_error *err);
 #endif
