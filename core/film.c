@@ -92,9 +92,14 @@ size_t film_pixels(const struct film *film)
     return (size_t)(film->x1 - film->x0) * (size_t)(film->y1 - film->y0);
 }
 
+uint32_t film_lines(const struct film *film, uint32_t samples)
+{
+    return pixel_lines(samples, film->lines);
+}
+
 static double line_count(const struct film *f)
 {
-    return pixel_lines(f->samples, f->lines);
+    return film_lines(f, f->samples);
 }
 
 /* Mean over the samples of one half. */
@@ -102,8 +107,7 @@ static double half_mean(const struct film *f, const film_pixel *p,
                         uint32_t half, int channel)
 {
     uint32_t paths = pixel_shared(f->samples, f->share, half);
-    uint32_t lines = pixel_shared(pixel_lines(f->samples, f->lines), f->share,
-                                  half);
+    uint32_t lines = pixel_shared(film_lines(f, f->samples), f->share, half);
     return (paths ? p->path[half][channel] / paths : 0.0) +
            (lines ? p->line[half][channel] / lines : 0.0);
 }

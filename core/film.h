@@ -20,6 +20,8 @@ bool film_init(struct film *film, const struct brume_options *options,
                struct brume_error *err);
 void film_release(struct film *film);
 size_t film_pixels(const struct film *film);
+/* Straight lines of a pixel that the first so many samples run. */
+uint32_t film_lines(const struct film *film, uint32_t samples);
 
 /* Estimated relRMSE (DESIGN.md) of the mean so far: the halves' difference
  * stands for the noise, the mean there or around for the reference. Infinite

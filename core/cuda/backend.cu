@@ -418,6 +418,8 @@ bool cuda_sample(void *state, uint32_t *samples, brume_stats *stats,
                                                        : samples_per_launch;
         s->job.first = f->samples + done;
         s->job.samples = n;
+        s->job.line = film_lines(f, s->job.first);
+        s->job.line_end = film_lines(f, s->job.first + n);
         if (!sample_some(s, err))
             return false;
         done += n;

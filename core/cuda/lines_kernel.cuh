@@ -1,6 +1,7 @@
-/* lines_kernel.cuh - the kernel of the straight lines from the eye. A thread
- * takes a pixel and runs its lines in order. LINES_STAGE names what is defined
- * here, SCENE_MAY what it can do. */
+/* lines_kernel.cuh - the kernel of the straight lines from the eye. Lines of a
+ * pixel are as long as one another and read the same voxels: threads beside one
+ * another take them at once. LINES_STAGE names what is defined here, SCENE_MAY
+ * what it can do. */
 #include "core/cuda/count.cuh"
 #include "core/cuda/tile.cuh"
 
@@ -12,36 +13,65 @@ namespace
 #define LINES_BLOCKS 16
 #endif
 
-/* Threads of a warp meet at the end of a segment: while they go along it, each
- * step is taken by all that are not there yet. */
-__global__ void __launch_bounds__(block_size, LINES_BLOCKS)
-sample_lines(const __grid_constant__ sample_job job)
+/* What came of a line, and its direction. */
+struct line_result {
+    march_result out;
+    vec3 d;
+};
+
+/* The threads' next lines. Those of a warp meet at the end of a segment: while
+ * they go along it, each step is taken by all that are not there yet. */
+__device__ __forceinline__ void run_lines(const sample_job *job, pixel_liner *l)
 {
-    const flat_scene *s = &job.scene;
-    int x, y;
+    const flat_scene *s = &job->scene;
+    if (l->next == PIXEL_TAKES)
+        pixel_take(s, &job->pixels, l);
+    while (__any_sync(~0u, l->next < PIXEL_ADDS)) {
+        if (l->next == PIXEL_LANDS)
+            pixel_land(s, l);
+        if (l->next == PIXEL_SEEKS)
+            pixel_seek(s, l);
+        while (l->next == PIXEL_STEPS)
+            pixel_step(s, l);
+    }
+}
+
+/* A thread a line, `beside` of a pixel's; the first of these adds them, in
+ * their order. */
+__global__ void __launch_bounds__(block_size, LINES_BLOCKS)
+sample_lines(const __grid_constant__ sample_job job, int beside)
+{
+    __shared__ line_result result[block_size];
+    int lane = static_cast<int>(threadIdx.x), turn = lane % beside, x, y;
     size_t at;
-    bool is = find_pixel(&job, &x, &y, &at);
+    bool is = find_pixel(&job, beside, &x, &y, &at);
     track_counters count = {};
     pixel_liner l;
-    pixel_lines_begin(&l, x, y, job.first, job.samples);
-    if (!is)
-        l.next = PIXEL_ENDS;
+    pixel_lines_begin(&l, x, y, job.line + turn, is ? job.line_end : 0, beside);
     while (__any_sync(~0u, l.next != PIXEL_ENDS)) {
-        if (l.next == PIXEL_LANDS)
-            pixel_land(s, &l, &job.pixel[at], &count);
-        if (l.next == PIXEL_TAKES)
-            pixel_take(s, &job.pixels, &l);
-        if (l.next == PIXEL_SEEKS)
-            pixel_seek(s, &l);
-        while (l.next == PIXEL_STEPS)
-            pixel_step(s, &l);
+        run_lines(&job, &l);
+        bool adds = l.next == PIXEL_ADDS;
+        if (adds)
+            result[lane] = {march_end(&job.scene, &l.march), l.march.d};
+        __syncwarp();
+        for (int i = 0; adds && turn == 0 && i < beside && l.number + i < l.end;
+             i++)
+            pixel_add_line(&job.scene, &job.pixels, l.number + i,
+                           result[lane + i].d, &result[lane + i].out,
+                           &job.pixel[at], &count);
+        __syncwarp();
+        if (adds)
+            pixel_pass(&l);
     }
     count_add(job.count, &count);
 }
 
+/* As many threads a pixel as it has lines, or fewer: a power of two. */
 void lines(const sample_job *job)
 {
-    sample_lines<<<find_blocks(job, 1, 1), block_size>>>(*job);
+    uint32_t n = job->line_end - job->line;
+    int beside = n >= 8 ? 8 : n >= 4 ? 4 : n >= 2 ? 2 : 1;
+    sample_lines<<<find_blocks(job, beside, 1, 1), block_size>>>(*job, beside);
 }
 
 }

@@ -34,6 +34,7 @@ struct sample_job {
     path_queue *queue;
     int processors;
     device_counters *count;  /* sums                                        */
+    uint32_t line, line_end;    /* a pixel's lines of these, half open     */
 };
 
 struct sample_stage {

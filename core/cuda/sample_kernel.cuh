@@ -94,7 +94,7 @@ sample_paths(const __grid_constant__ sample_job job)
 {
     int x, y;
     size_t at;
-    bool alive = find_pixel(&job, &x, &y, &at);
+    bool alive = find_pixel(&job, 1, &x, &y, &at);
     track_counters count = {};
     path_state path;
     plate_view plate = plate_none();
@@ -177,7 +177,7 @@ void paths(const sample_job *job)
     if (j.samples == 1)
         j.bent = nullptr;
     cudaMemsetAsync(j.queue, 0, sizeof *j.queue);
-    sample_paths<<<find_blocks(&j, path_tiles, j.samples), threads>>>(j);
+    sample_paths<<<find_blocks(&j, 1, path_tiles, j.samples), threads>>>(j);
     if (j.bent)
         sample_bent<<<blocks, threads>>>(j);
     add_paths<<<parts_of(static_cast<int>(find_pixels(&j)), threads),

@@ -35,11 +35,6 @@ typedef struct {
  * its own, or functions are sampled and it shows, by `all`. */
 enum { PIXEL_LINES_FIRST = 4, PIXEL_LINES_EVERY = 8 };
 
-HD bool pixel_has_line(uint32_t i, bool all)
-{
-    return all || i < PIXEL_LINES_FIRST || i % PIXEL_LINES_EVERY == 0u;
-}
-
 /* The half that sample, or line, number n is counted in. Of each two that
  * follow one another one is; and as the second, fifth, eighth ... of the
  * number's digits do not tell, each rectangle of a pixel (sobol.h) that has
@@ -71,13 +66,6 @@ HD uint32_t pixel_shared(uint32_t n, uint32_t share, uint32_t half)
            (pixel_half(fields) == half ? n % share : 0u);
 }
 
-/* The number of sample i's line among all lines. */
-HD uint32_t pixel_line_number(uint32_t i, bool all)
-{
-    return all || i < PIXEL_LINES_FIRST
-         ? i : PIXEL_LINES_FIRST - 1u + i / PIXEL_LINES_EVERY;
-}
-
 /* Lines among the first n samples. */
 HD uint32_t pixel_lines(uint32_t n, bool all)
 {
@@ -97,11 +85,12 @@ HD void pixel_sum(double out[3], rgb c)
     out[2] += (double)c.b;
 }
 
-/* Adds sample i's line, the number-th of all lines. */
-HD void pixel_add_line(const flat_scene *s, vec3 d, uint32_t i,
-                       uint32_t half, const march_result *m,
+/* Adds line `number` of all lines, along d. */
+HD void pixel_add_line(const flat_scene *s, const pixel_job *job,
+                       uint32_t number, vec3 d, const march_result *m,
                        film_pixel *out, track_counters *count)
 {
+    uint32_t half = pixel_half(number / job->share);
     count->overflow += m->overflow;
     if (!pixel_finite(m->radiance) || !pixel_finite(m->opacity)) {
         count->rejected++;
@@ -110,7 +99,7 @@ HD void pixel_add_line(const flat_scene *s, vec3 d, uint32_t i,
     pixel_sum(out->line[half], m->radiance);
     pixel_sum(out->background, m->background);
     pixel_sum(out->opacity, m->opacity);
-    if (i == 0u)
+    if (number == 0u)
         out->depth = m->depth *
                      vec3_dot(d, vec3_normalize(s->view.direction)) / s->unit;
 }
@@ -186,47 +175,40 @@ HD void pixel_ray(const flat_scene *s, const pixel_job *job, int32_t x,
     *along = at.along;
 }
 
-/* The straight lines of a pixel's samples, one after the other, in steps: what
- * is next of them. */
-enum { PIXEL_TAKES, PIXEL_SEEKS, PIXEL_STEPS, PIXEL_LANDS, PIXEL_ENDS };
+/* Straight lines of a pixel's samples, one after the other, in steps: what is
+ * next of them. */
+enum { PIXEL_TAKES, PIXEL_SEEKS, PIXEL_STEPS, PIXEL_LANDS, PIXEL_ADDS,
+       PIXEL_ENDS };
 
 typedef struct {
     int32_t next;           /* PIXEL_*                                     */
     int32_t x, y;
-    uint32_t i, end;        /* the sample that is next, and the last's     */
-    uint32_t number;        /* of the line that is on                      */
-    uint32_t half;          /* ... and what it is counted in               */
+    uint32_t number, end;   /* of the line that is on, and beyond the last's */
+    uint32_t apart;         /* from one line's to the next one's           */
     march_state march;
 } pixel_liner;
 
-/* Of samples [first, first + n) of pixel (x, y). */
+/* Of pixel (x, y): every apart-th of its lines from number `first` on. */
 HD void pixel_lines_begin(pixel_liner *l, int32_t x, int32_t y,
-                          uint32_t first, uint32_t n)
+                          uint32_t first, uint32_t end, uint32_t apart)
 {
-    l->next = PIXEL_TAKES;
+    l->next = first < end ? PIXEL_TAKES : PIXEL_ENDS;
     l->x = x;
     l->y = y;
-    l->i = first;
-    l->end = first + n;
+    l->number = first;
+    l->end = end;
+    l->apart = apart;
 }
 
-/* Takes the next sample that has a line. */
 HD void pixel_take(const flat_scene *s, const pixel_job *job, pixel_liner *l)
 {
     vec3 o, d;
     line_jitter along;
     container_set set;
-    bool all = job->lines != 0;
-    while (l->i < l->end && !pixel_has_line(l->i, all))
-        l->i++;
-    l->next = l->i < l->end ? PIXEL_SEEKS : PIXEL_ENDS;
-    if (l->next == PIXEL_ENDS)
-        return;
-    l->number = pixel_line_number(l->i, all);
-    l->half = pixel_half(l->number / job->share);
     pixel_ray(s, job, l->x, l->y, l->number, &o, &d, &set, &along);
     march_begin(&l->march, &set, o, d, along);
     l->march.plate = plate_seen(s, pixel_index(job, l->x, l->y), d);
+    l->next = PIXEL_SEEKS;
 }
 
 HD void pixel_seek(const flat_scene *s, pixel_liner *l)
@@ -240,34 +222,41 @@ HD void pixel_step(const flat_scene *s, pixel_liner *l)
         l->next = PIXEL_LANDS;
 }
 
-HD void pixel_land(const flat_scene *s, pixel_liner *l, film_pixel *out,
-                   track_counters *count)
+HD void pixel_land(const flat_scene *s, pixel_liner *l)
 {
-    if (march_land(s, &l->march)) {
-        l->next = PIXEL_SEEKS;
-        return;
-    }
-    march_result m = march_end(s, &l->march);
-    pixel_add_line(s, l->march.d, l->i++, l->half, &m, out, count);
-    l->next = PIXEL_TAKES;
+    l->next = march_land(s, &l->march) ? PIXEL_SEEKS : PIXEL_ADDS;
 }
 
-/* The whole of them. */
+/* The line has been added. */
+HD void pixel_pass(pixel_liner *l)
+{
+    l->number += l->apart;
+    l->next = l->number < l->end ? PIXEL_TAKES : PIXEL_ENDS;
+}
+
+/* Those of samples [first, first + n). */
 HD void pixel_lines_run(const flat_scene *s, const pixel_job *job, int32_t x,
                         int32_t y, uint32_t first, uint32_t n,
                         film_pixel *out, track_counters *count)
 {
     pixel_liner l;
-    pixel_lines_begin(&l, x, y, first, n);
+    bool all = job->lines != 0;
+    pixel_lines_begin(&l, x, y, pixel_lines(first, all),
+                      pixel_lines(first + n, all), 1u);
     while (l.next != PIXEL_ENDS)
-        if (l.next == PIXEL_TAKES)
+        if (l.next == PIXEL_TAKES) {
             pixel_take(s, job, &l);
-        else if (l.next == PIXEL_SEEKS)
+        } else if (l.next == PIXEL_SEEKS) {
             pixel_seek(s, &l);
-        else if (l.next == PIXEL_STEPS)
+        } else if (l.next == PIXEL_STEPS) {
             pixel_step(s, &l);
-        else
-            pixel_land(s, &l, out, count);
+        } else if (l.next == PIXEL_LANDS) {
+            pixel_land(s, &l);
+        } else {
+            march_result m = march_end(s, &l.march);
+            pixel_add_line(s, job, l.number, l.march.d, &m, out, count);
+            pixel_pass(&l);
+        }
 }
 
 HD void pixel_begin(const flat_scene *s, const pixel_job *job, int32_t x,
