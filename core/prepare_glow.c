@@ -118,7 +118,9 @@ static float voxel_weight(const struct glow_job *job, const glow_brick *b,
 {
     float sum = 0.0f;
     for (int i = 0; i < 8; i += 2) {
-        twin_point x = {eighth(job, b, voxel, i), eighth(job, b, voxel, i + 1)};
+        twin_point x = twin_point_of(&job->flat->view, job->medium,
+                                     eighth(job, b, voxel, i),
+                                     eighth(job, b, voxel, i + 1));
         sum += twin_weight(job, &x);
     }
     return isfinite(sum) ? sum / 8.0f : 0.0f;

@@ -128,6 +128,18 @@ static bool copy_bricks(const struct prepare *job, const struct grid *g,
     return true;
 }
 
+/* The first grid that lies as the one to come does. */
+static int32_t find_layout(const struct flat *f, const flat_grid *g)
+{
+    int32_t i = 0;
+    while (i < (int32_t)f->grids_count &&
+           (f->grids[i].nearest != g->nearest ||
+            memcmp(f->grids[i].origin, g->origin, sizeof g->origin) ||
+            memcmp(f->grids[i].bricks, g->bricks, sizeof g->bricks)))
+        i++;
+    return i;
+}
+
 static bool add_grid(const struct prepare *job, const struct grid *g,
                      struct brume_error *err)
 {
@@ -141,6 +153,7 @@ static bool add_grid(const struct prepare *job, const struct grid *g,
     }
     out.nearest = g->filter == GRID_NEAREST;
     out.clip = g->clip;
+    out.layout = find_layout(f, &out);
     out.tile = f->tiles_count;
     float *tiles = FLAT_EXTEND(f, tiles, g->tiles, err);
     if (!tiles)

@@ -340,6 +340,7 @@ static void set_cells(struct layout *l, double side)
 {
     const scene_reach *r = &l->flat->view.reach;
     l->field.side = (float)side;
+    l->field.per_side = 1.0f / l->field.side;
     for (int i = 0; i < 3; i++) {
         if (l->snap) {
             snap_axis(l, i, side);

@@ -37,10 +37,16 @@ HD field_point medium_point(const flat_scene *s, const flat_medium *m, vec3 p)
     return field_point_of(m->lead >= 0 ? scene_lead(s, m) : 0, p);
 }
 
+/* Whether its index space is that of the point's lattice: a medium's grids are
+ * all on its lead's, unless scenes hold more. */
+HD bool field_shares(const flat_field *f, const field_point *x)
+{
+    return !scene_may(MAY_MANY | MAY_FUNCTIONS) || f->lattice == x->lattice;
+}
+
 HD vec3 field_index(const flat_field *f, const field_point *x)
 {
-    return f->lattice == x->lattice ? x->index
-                                    : affine_point(&f->to_index, x->p);
+    return field_shares(f, x) ? x->index : affine_point(&f->to_index, x->p);
 }
 
 /* What is no positive number counts as 0. */

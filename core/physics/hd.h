@@ -69,6 +69,26 @@ HD float hd_max(float a, float b)
     return a > b ? a : b;
 }
 
+/* hd_min of a bound that is neither NaN nor a zero, hd_max of one that is
+ * neither NaN nor -0: a GPU has an instruction for each. */
+HD float hd_at_most(float x, float bound)
+{
+#ifdef __CUDA_ARCH__
+    return fminf(x, bound);
+#else
+    return hd_min(x, bound);
+#endif
+}
+
+HD float hd_at_least(float x, float bound)
+{
+#ifdef __CUDA_ARCH__
+    return fmaxf(x, bound);
+#else
+    return hd_max(x, bound);
+#endif
+}
+
 /* Floor to int; what lies beyond 2^30 is taken as there. */
 HD int hd_floor(float x)
 {

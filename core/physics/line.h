@@ -41,6 +41,11 @@ typedef struct {
     float first, second;
 } line_jitter;
 
+/* A plane of voxels that is ahead, and its distance. */
+typedef struct {
+    float plane, next;
+} line_near;
+
 /* A voxel lattice along the ray. */
 typedef struct {
     vec3 o, d, inverse;
@@ -57,6 +62,7 @@ typedef struct {
     line_jitter jitter;     /* places of the next samples                  */
     int lattices;
     bool cells;             /* one of them is the field's                  */
+    int place;              /* without MAY_MANY: radiance_sight_place      */
     line_lattice lattice[LINE_LATTICES];
 } line_job;
 
@@ -121,18 +127,20 @@ HD int line_lattices(const line_job *job)
 /* The first plane of one axis beyond t, and its distance; none beyond 2^30
  * voxels from the grid's origin, where the spacing of floats is over 64
  * voxels. */
-HD void line_plane(float o, float d, float inverse, float t, float *plane,
-                   float *next)
+HD_SHARED line_near line_plane(float o, float d, float inverse, float t)
 {
+    line_near out;
     float x = o + t * d, step = inverse > 0.0f ? 1.0f : -1.0f;
-    *next = INFINITY;
+    out.plane = NAN;
+    out.next = INFINITY;
     if (d == 0.0f || !(fabsf(x) < 1073741824.0f))
-        return;
+        return out;
     int at = hd_floor(x);
-    *plane = (float)(d > 0.0f ? at + 1 : (float)at == x ? at - 1 : at);
-    if (!((*plane - o) * inverse > t))
-        *plane += step;
-    *next = (*plane - o) * inverse;
+    out.plane = (float)(d > 0.0f ? at + 1 : (float)at == x ? at - 1 : at);
+    if (!((out.plane - o) * inverse > t))
+        out.plane += step;
+    out.next = (out.plane - o) * inverse;
+    return out;
 }
 
 /* The same of an axis: most often t has come no farther than to its last. */
@@ -143,8 +151,11 @@ HD void line_pass_plane(float o, float d, float inverse, float t, float *plane,
         return;
     *plane += inverse > 0.0f ? 1.0f : -1.0f;
     *next = (*plane - o) * inverse;
-    if (!(*next > t))
-        line_plane(o, d, inverse, t, plane, next);
+    if (*next > t)
+        return;
+    line_near near = line_plane(o, d, inverse, t);
+    *plane = near.plane;
+    *next = near.next;
 }
 
 /* Whether the place of a lattice has one. */
@@ -180,11 +191,11 @@ HD float line_stop(const line_job *job, float t, float t_end)
     return stop > t ? stop : t_end;
 }
 
-/* Whether a medium of that density scatters of the field's light. */
-HD bool line_scatters(const line_job *job, const flat_medium *m, rgb density)
+/* Whether a medium scatters of the field's light. */
+HD bool line_scatters(const line_job *job, const flat_medium *m)
 {
-    return scene_may(MAY_FIELD) && job->scattered && !rgb_is_black(density) &&
-           !rgb_is_black(m->sigma_s);
+    return scene_may(MAY_FIELD) && job->scattered &&
+           !rgb_is_black(may_gray(m->sigma_s));
 }
 
 /* The field's light as read cell by cell of any size. */
@@ -208,7 +219,8 @@ HD_APART radiance_sight line_light_apart(const flat_scene *s,
 HD radiance_sight line_light(const flat_scene *s, const line_job *job,
                              const flat_medium *m, vec3 p)
 {
-    int place = radiance_sight_place(&s->field, m->kind);
+    int place = scene_may(MAY_MANY) ? radiance_sight_place(&s->field, m->kind)
+                                    : job->place;
     return place >= 0 && !s->field.refined
                ? radiance_sight_at(s, p, place)
                : line_light_apart(s, m, p, job->d);
@@ -251,6 +263,30 @@ HD rgb line_glow(const flat_scene *s, const line_job *job,
                                        job->p_dir));
 }
 
+/* A point of a line outside of lattices: where there are any, it seldom is. */
+HD_SHARED field_point line_outside(const flat_scene *s, const flat_medium *m,
+                                   vec3 o, vec3 d, float t)
+{
+    return medium_point(s, m, vec3_mad(o, t, d));
+}
+
+/* Two of its points in part i of the walk. */
+HD twin_point line_twin_point(const flat_scene *s, const line_job *job,
+                              const media_walk *w, int i, float ta, float tb)
+{
+    const lattice_walk *part = walk_part(w, i);
+    const flat_medium *m = walk_medium(s, w, i);
+    field_point a, b;
+    if (part->inside) {
+        a = lattice_inside(s, part, vec3_mad(job->o, ta, job->d), ta);
+        b = lattice_inside(s, part, vec3_mad(job->o, tb, job->d), tb);
+    } else {
+        a = line_outside(s, m, job->o, job->d, ta);
+        b = line_outside(s, m, job->o, job->d, tb);
+    }
+    return twin_point_of(s, m, a, b);
+}
+
 HD bool line_part_empty(const lattice_walk *part)
 {
     return part->bound.density == 0.0f && part->bound.rate == 0.0f;
@@ -276,7 +312,7 @@ HD line_point line_at(const flat_scene *s, const line_job *job,
         if (line_emits(job, w, i))
             q = line_glow(s, job, w, i, medium_source(s, m, &x, density), p,
                           t);
-        bool scatters = line_scatters(job, m, density);
+        bool scatters = line_scatters(job, m) && !rgb_is_black(density);
         if (read != m->kind &&
             (scatters || (births && !rgb_is_black(q)))) {
             light = line_light(s, job, m, p);
@@ -304,13 +340,10 @@ HD line_twins line_at_twins(const flat_scene *s, const line_job *job,
     out.b = out.a;
     vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
-        const lattice_walk *part = walk_part(w, i);
         const flat_medium *m = walk_medium(s, w, i);
-        if (line_part_empty(part))
+        if (line_part_empty(walk_part(w, i)))
             continue;
-        twin_point x;
-        x.a = lattice_point(s, part, pa, ta);
-        x.b = lattice_point(s, part, pb, tb);
+        twin_point x = line_twin_point(s, job, w, i, ta, tb);
         twin_rgb density = twin_density(s, m, &x), q;
         q.a = q.b = rgb_gray(0.0f);
         out.a.sigma_t = rgb_add(out.a.sigma_t, rgb_mul(m->sigma_t, density.a));
@@ -320,8 +353,8 @@ HD line_twins line_at_twins(const flat_scene *s, const line_job *job,
             q.a = line_glow(s, job, w, i, q.a, pa, ta);
             q.b = line_glow(s, job, w, i, q.b, pb, tb);
         }
-        bool scatters = line_scatters(job, m, density.a) ||
-                        line_scatters(job, m, density.b);
+        bool scatters = line_scatters(job, m) &&
+                        !(rgb_is_black(density.a) && rgb_is_black(density.b));
         bool emits = !rgb_is_black(q.a) || !rgb_is_black(q.b);
         if (read != m->kind && (scatters || (births && emits))) {
             light = line_light(s, job, m,
@@ -415,15 +448,11 @@ HD void line_dim(const flat_scene *s, const line_job *job, const media_walk *w,
                  float ta, float tb, float half, line_integral *out)
 {
     rgb a = rgb_gray(0.0f), b = a;
-    vec3 pa = vec3_mad(job->o, ta, job->d), pb = vec3_mad(job->o, tb, job->d);
     for (int i = 0; i < walk_parts(w); i++) {
-        const lattice_walk *part = walk_part(w, i);
         const flat_medium *m = walk_medium(s, w, i);
-        twin_point x;
-        if (line_part_empty(part))
+        if (line_part_empty(walk_part(w, i)))
             continue;
-        x.a = lattice_point(s, part, pa, ta);
-        x.b = lattice_point(s, part, pb, tb);
+        twin_point x = line_twin_point(s, job, w, i, ta, tb);
         twin_rgb density = twin_density(s, m, &x);
         a = rgb_add(a, rgb_mul(m->sigma_t, density.a));
         b = rgb_add(b, rgb_mul(m->sigma_t, density.b));
@@ -503,6 +532,7 @@ HD void line_add_media(const flat_scene *s, line_flight *f)
     line_job *job = &f->job;
     job->lattices = 0;
     job->cells = false;
+    job->place = radiance_sight_place(&s->field, 0);
     job->sampled = false;
     job->rate = 0.0f;
     for (int i = 0; !scene_may(MAY_MANY) && i < LINE_LATTICES; i++)

@@ -597,18 +597,24 @@ HD int radiance_sight_place(const radiance_lattice *f, int kind)
     return f->eye >= 0 ? f->eye + place : f->flux < 0 ? f->fluence : -1;
 }
 
-/* Adds three numbers of a cell, and those of births, `weight` times. */
-HD void radiance_see(const radiance_lattice *f, const float *v, int place,
-                     float weight, radiance_sight *out)
+/* Whether cells have three numbers of that light, one of births, no more. */
+HD bool radiance_has_four(const radiance_lattice *f)
+{
+    return scene_may(MAY_BALLS) && f->ball && f->numbers == 4;
+}
+
+/* Adds a cell's, the first of them at v, `weight` times. */
+HD void radiance_see(const float *v, bool four, float weight,
+                     radiance_sight *out)
 {
     float x[4];
-    if (scene_may(MAY_BALLS) && f->ball && f->numbers == 4) {
+    if (four) {
         radiance_four(v, x);
         out->births += weight * x[3];
     } else {
-        x[0] = v[place];
-        x[1] = v[place + 1];
-        x[2] = v[place + 2];
+        x[0] = v[0];
+        x[1] = v[1];
+        x[2] = v[2];
     }
     out->light.r += weight * x[0];
     out->light.g += weight * x[1];
@@ -624,13 +630,12 @@ typedef struct {
 HD radiance_eight radiance_eight_of(const flat_scene *s, vec3 p)
 {
     const radiance_lattice *f = &s->field;
-    const float per_side = 1.0f / f->side;
     radiance_eight e;
     for (int i = 0; i < 3; i++) {
         float last = (float)(8 * f->bricks[i] - 1);
-        float x = (vec3_get(p, i) - f->origin[i]) * per_side - 0.5f;
-        x = hd_min(hd_max(x, 0.0f), last);
-        e.at[i] = (int)hd_min(x, last - 1.0f);
+        float x = (vec3_get(p, i) - f->origin[i]) * f->per_side - 0.5f;
+        x = hd_at_most(hd_at_least(x, 0.0f), last);
+        e.at[i] = (int)hd_at_most(x, last - 1.0f);
         e.part[i][1] = x - (float)e.at[i];
         e.part[i][0] = 1.0f - e.part[i][1];
     }
@@ -655,7 +660,8 @@ HD radiance_sight radiance_see_some(const flat_scene *s,
                                      e->at[2] + z);
         if (cell < 0)
             continue;
-        radiance_see(f, s->radiance + cell * f->numbers, place, weight, &out);
+        radiance_see(s->radiance + cell * f->numbers + place,
+                     radiance_has_four(f), weight, &out);
         sum += weight;
     }
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
@@ -667,9 +673,10 @@ HD radiance_sight radiance_see_some(const flat_scene *s,
 /* The mean where all of them are there, in bricks of those slots. */
 HD radiance_sight radiance_see_all(const flat_scene *s,
                                    const radiance_eight *e,
-                                   const int32_t *slot, int place)
+                                   const int32_t *slot, int place, bool four)
 {
-    const radiance_lattice *f = &s->field;
+    const uint32_t bytes = sizeof(float) * (uint32_t)s->field.numbers;
+    const char *first = (const char *)(s->radiance + place);
     radiance_sight out = radiance_no_sight();
     for (int k = 0; k < 8; k++) {
         int x = k & 1, y = k >> 1 & 1, z = k >> 2;
@@ -678,8 +685,9 @@ HD radiance_sight radiance_see_all(const flat_scene *s,
                                  ((e->at[1] + y) & 7) * 8 +
                                  ((e->at[0] + x) & 7));
         uint32_t cell = (uint32_t)slot[k] * 512u + in;
-        radiance_see(f, s->radiance + (uint64_t)cell * (uint32_t)f->numbers,
-                     place, weight, &out);
+        /* One product and sum, as 32 bits hold its factors. */
+        const void *v = first + (uint64_t)cell * bytes;
+        radiance_see((const float *)v, four, weight, &out);
     }
     return out;
 }
@@ -694,8 +702,13 @@ HD radiance_sight radiance_sight_at(const flat_scene *s, vec3 p, int place)
     radiance_slots_of(s, e.at, slot);
     for (int k = 0; k < 8; k++)
         all |= slot[k];
-    radiance_sight out = all < 0 ? radiance_see_some(s, &e, place)
-                                 : radiance_see_all(s, &e, slot, place);
+    radiance_sight out;
+    if (all < 0)
+        out = radiance_see_some(s, &e, place);
+    else if (radiance_has_four(f))
+        out = radiance_see_all(s, &e, slot, place, true);
+    else
+        out = radiance_see_all(s, &e, slot, place, false);
     if (!f->ball && !f->lit && f->eye < 0)
         out.light = rgb_scale(out.light, WARP_INV_4PI);
     return out;

@@ -40,6 +40,8 @@ typedef struct {
     uint64_t brick;         /* first of its stored bricks                  */
     uint64_t tile;          /* first of its constants; that one is outside */
     int32_t nearest;        /* 1: no interpolation                         */
+    int32_t layout;         /* the first grid with the same origin, bricks and
+                               `nearest`                                   */
     int32_t clip;           /* 1: zero outside of clip_min..clip_max       */
     float clip_min[3], clip_max[3];
 } flat_grid;
@@ -262,6 +264,7 @@ typedef struct {
 typedef struct {
     float origin[3];        /* unit space: the lattice's lowest corner     */
     float side;             /* of a cell                                   */
+    float per_side;         /* 1 / side                                    */
     int32_t bricks[3];
     int32_t numbers;        /* of a cell: of each of these 3, of eye and lit
                                for each p, and 9 of the flux, x y z of each

@@ -121,18 +121,14 @@ HD single_stretch single_measure(const flat_scene *s, const line_flight *l,
     const media_walk *w = &l->walk;
     single_stretch out;
     float off = LINE_NODE * (stop - l->t), ta = l->t + off, tb = stop - off;
-    vec3 pa = vec3_mad(l->job.o, ta, l->job.d);
-    vec3 pb = vec3_mad(l->job.o, tb, l->job.d);
     out.half = 0.5f * (stop - l->t);
     out.scatters.a = out.scatters.b = out.loses.a = out.loses.b = 0.0f;
     for (int i = 0; i < walk_parts(w); i++) {
         const lattice_walk *part = walk_part(w, i);
         const flat_medium *m = walk_medium(s, w, i);
-        twin_point x;
         if (part->bound.density == 0.0f)
             continue;
-        x.a = lattice_point(s, part, pa, ta);
-        x.b = lattice_point(s, part, pb, tb);
+        twin_point x = line_twin_point(s, &l->job, w, i, ta, tb);
         twin_rgb density = twin_density(s, m, &x);
         float scatters = rgb_max(m->sigma_s), loses = rgb_min(m->sigma_t);
         float least = surely * part->bound.density;

@@ -14,8 +14,13 @@ typedef struct {
     rgb a, b;
 } twin_rgb;
 
+/* Two points, most often in one voxel. */
 typedef struct {
     field_point a, b;
+    int32_t layout;         /* they are, of grids on the lead's lattice that
+                               have this layout and interpolate; -1: of none */
+    uint32_t brick, sample; /* that voxel, as of grid_spot                 */
+    vec3 in_a, in_b;        /* the places from its corner on               */
 } twin_point;
 
 /* Whether a place within a voxel counts as in it: rounding at planes may put
@@ -27,9 +32,30 @@ HD bool twin_within(vec3 at)
            at.z >= lo && at.z <= hi;
 }
 
-HD_APART float twin_apart(const flat_scene *s, const flat_grid *g, vec3 p)
+/* Of a medium: in its lead's grid, whose layout its others have most often. */
+HD twin_point twin_point_of(const flat_scene *s, const flat_medium *m,
+                            field_point a, field_point b)
 {
-    return grid_lookup(s, g, p);
+    twin_point x;
+    x.a = a;
+    x.b = b;
+    x.layout = -1;
+    x.brick = x.sample = 0u;
+    x.in_a = x.in_b = vec3_make(0.0f, 0.0f, 0.0f);
+    if (m->lead < 0 || scene_lead(s, m)->kind != FIELD_GRID)
+        return x;
+    const flat_grid *g = scene_grid(s, scene_lead(s, m));
+    if (g->nearest)
+        return x;
+    vec3 p = grid_from(g, a.index);
+    grid_spot spot = grid_spot_of(g, p);
+    x.brick = spot.brick;
+    x.sample = spot.sample;
+    x.in_a = vec3_sub(p, spot.corner);
+    x.in_b = vec3_sub(grid_from(g, b.index), spot.corner);
+    if (twin_within(x.in_b))
+        x.layout = g->layout;
+    return x;
 }
 
 /* Of a grid, at places of its index space. */
@@ -38,13 +64,14 @@ HD twin_float twin_grid(const flat_scene *s, const flat_grid *g, vec3 a,
 {
     twin_float out;
     vec3 at = grid_local(g, a);
-    grid_voxel v = grid_voxel_at(s, g, at);
+    grid_spot spot = grid_spot_of(g, at);
+    grid_voxel v = grid_voxel_at(s, g, spot.brick, spot.sample);
     out.a = out.b = v.value;
-    if (v.sample) {
-        vec3 next = vec3_sub(grid_local(g, b), v.corner);
-        out.a = grid_inside(g, &v, vec3_sub(at, v.corner));
+    if (v.stored) {
+        vec3 next = vec3_sub(grid_local(g, b), spot.corner);
+        out.a = grid_inside(g, &v, vec3_sub(at, spot.corner));
         out.b = twin_within(next) ? grid_inside(g, &v, next)
-                                  : twin_apart(s, g, b);
+                                  : grid_lookup(s, g, b);
     }
     if (g->clip && grid_clipped(g, a))
         out.a = 0.0f;
@@ -53,19 +80,66 @@ HD twin_float twin_grid(const flat_scene *s, const flat_grid *g, vec3 a,
     return out;
 }
 
-/* Of a field that is none, see field_is_function. */
-HD twin_float twin_plain(const flat_scene *s, const flat_field *f,
+/* The same where they are in one voxel. */
+HD twin_float twin_voxel(const flat_scene *s, const flat_grid *g,
                          const twin_point *x)
+{
+    twin_float out;
+    grid_voxel v = grid_voxel_at(s, g, x->brick, x->sample);
+    out.a = out.b = v.value;
+    if (v.stored) {
+        grid_eight c = grid_load(v.sample);
+        out.a = grid_trilinear(&c, x->in_a);
+        out.b = grid_trilinear(&c, x->in_b);
+    }
+    return out;
+}
+
+HD_SHARED twin_float twin_apart(const flat_scene *s, const flat_field *f,
+                                field_point a, field_point b)
 {
     twin_float out;
     out.a = out.b = f->scale;
     if (f->kind == FIELD_CONSTANT)
         return out;
-    out = twin_grid(s, scene_grid(s, f), field_index(f, &x->a),
-                    field_index(f, &x->b));
+    out = twin_grid(s, scene_grid(s, f), field_index(f, &a),
+                    field_index(f, &b));
     out.a *= f->scale;
     out.b *= f->scale;
     return out;
+}
+
+/* Whether the points' voxel is one of a field that is no function. */
+HD bool twin_fits(const flat_scene *s, const flat_field *f, const twin_point *x)
+{
+    if (f->kind == FIELD_CONSTANT || !field_shares(f, &x->a))
+        return false;
+    const flat_grid *g = scene_grid(s, f);
+    return x->layout == g->layout && !g->clip;
+}
+
+/* Of a field that is none, see field_is_function. */
+HD twin_float twin_plain(const flat_scene *s, const flat_field *f,
+                         const twin_point *x)
+{
+    if (!twin_fits(s, f, x))
+        return twin_apart(s, f, x->a, x->b);
+    twin_float out = twin_voxel(s, scene_grid(s, f), x);
+    out.a *= f->scale;
+    out.b *= f->scale;
+    return out;
+}
+
+/* The product of the medium's densities but for the first, times d. */
+HD_SHARED twin_float twin_others(const flat_scene *s, const flat_medium *m,
+                                 field_point a, field_point b, twin_float d)
+{
+    for (int i = 1; i < m->densities && (d.a != 0.0f || d.b != 0.0f); i++) {
+        twin_float f = twin_apart(s, scene_density(s, m, i), a, b);
+        d.a *= f.a;
+        d.b *= f.b;
+    }
+    return d;
 }
 
 /* As field_eval. */
@@ -86,17 +160,16 @@ HD twin_rgb twin_density(const flat_scene *s, const flat_medium *m,
 {
     twin_rgb out;
     twin_float d;
-    d.a = d.b = 1.0f;
     if (scene_may(MAY_FUNCTIONS) && m->functions) {
         out.a = medium_density(s, m, &x->a);
         out.b = medium_density(s, m, &x->b);
         return out;
     }
-    for (int i = 0; i < m->densities && (d.a != 0.0f || d.b != 0.0f); i++) {
-        twin_float f = twin_plain(s, scene_density(s, m, i), x);
-        d.a *= f.a;
-        d.b *= f.b;
-    }
+    d.a = d.b = 1.0f;
+    if (m->densities > 0)
+        d = twin_plain(s, scene_density(s, m, 0), x);
+    if (m->densities > 1)
+        d = twin_others(s, m, x->a, x->b, d);
     out.a = rgb_gray(hd_min(d.a, m->densest));
     out.b = rgb_gray(hd_min(d.b, m->densest));
     return out;

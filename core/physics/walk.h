@@ -125,9 +125,9 @@ HD float lattice_next(const lattice_walk *w)
 HD void lattice_load(const flat_scene *s, lattice_walk *w)
 {
     const flat_medium *m = scene_medium(s, w->medium);
-    uint64_t i = (uint64_t)w->cell[0] +
-        (uint64_t)m->cells[0] * ((uint64_t)w->cell[1] +
-                                 (uint64_t)m->cells[1] * (uint64_t)w->cell[2]);
+    uint32_t i = (uint32_t)w->cell[0] +
+        (uint32_t)m->cells[0] * ((uint32_t)w->cell[1] +
+                                 (uint32_t)m->cells[1] * (uint32_t)w->cell[2]);
     w->bound = s->cells[m->cell + i];
 }
 
@@ -202,7 +202,8 @@ HD bool lattice_cross(lattice_walk *w, const int32_t *cells)
 {
     int32_t at;
     int axis = walk_cross(w->o, w->inverse, w->cell, w->next, &at);
-    return at >= 0 && at < cells[axis];
+    int32_t end = axis == 2 ? cells[2] : axis == 1 ? cells[1] : cells[0];
+    return at >= 0 && at < end;
 }
 
 /* Goes on from the end of the current piece. */
@@ -227,26 +228,32 @@ HD void lattice_step(const flat_scene *s, lattice_walk *w)
 
 HD float lattice_clamp(float x, int32_t cell)
 {
-    return hd_min(hd_max(x, (float)cell), (float)(cell + 1));
+    return hd_at_most(hd_at_least(x, (float)cell), (float)(cell + 1));
 }
 
-/* The point at distance t, in the current cell of the lattice however far the
+/* The point p at distance t, in the current cell of the lattice however far the
  * ray has come: the cell's bound holds for what is read there. */
-HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
-                             vec3 p, float t)
+HD field_point lattice_inside(const flat_scene *s, const lattice_walk *w,
+                              vec3 p, float t)
 {
     const flat_medium *m = scene_medium(s, w->medium);
-    if (!w->inside)
-        return medium_point(s, m, p);
     vec3 q = vec3_mad(w->o, t, w->d);
     field_point x;
-    x.p = p;
+    x.p = scene_may(MAY_MANY | MAY_FUNCTIONS) ? p : q;
     const float side = m->side;
     x.index = vec3_make(side * lattice_clamp(q.x, w->cell[0]) + m->origin[0],
                         side * lattice_clamp(q.y, w->cell[1]) + m->origin[1],
                         side * lattice_clamp(q.z, w->cell[2]) + m->origin[2]);
     x.lattice = scene_lead(s, m)->lattice;
     return x;
+}
+
+/* The same, also outside of the lattice. */
+HD field_point lattice_point(const flat_scene *s, const lattice_walk *w,
+                             vec3 p, float t)
+{
+    return w->inside ? lattice_inside(s, w, p, t)
+                     : medium_point(s, scene_medium(s, w->medium), p);
 }
 
 HD void walk_set_end(media_walk *w)

@@ -559,8 +559,8 @@ static void extremes__planes_lie_ahead(void **state)
         t = i & 2 ? nextafterf(t, INFINITY) : t;
         if (!(t > 0.0f))
             continue;
-        float plane = 0.0f, next;
-        line_plane(o, d, inverse, t, &plane, &next);
+        line_near first = line_plane(o, d, inverse, t);
+        float plane = first.plane, next = first.next;
         assert_true(next > t);
         assert_true((next - t) * fabsf(d) < 1.001f);
         /* And the one behind it. */
