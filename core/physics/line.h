@@ -443,6 +443,12 @@ typedef struct {
     float t;
 } line_flight;
 
+/* Whether the only medium takes as much of each channel. */
+HD bool line_dims_evenly(const flat_scene *s)
+{
+    return SCENE_SOLE && line_is_even(s->sole.medium.sigma_t);
+}
+
 /* Adds the depth of two halves alone, as line_halves does. */
 HD void line_dim(const flat_scene *s, const line_job *job, const media_walk *w,
                  float ta, float tb, float half, line_integral *out)
@@ -456,6 +462,11 @@ HD void line_dim(const flat_scene *s, const line_job *job, const media_walk *w,
         twin_rgb density = twin_density(s, m, &x);
         a = rgb_add(a, rgb_mul(m->sigma_t, density.a));
         b = rgb_add(b, rgb_mul(m->sigma_t, density.b));
+    }
+    if (line_dims_evenly(s)) {
+        line_deepen(out, (double)a.r * (double)half);
+        line_deepen(out, (double)b.r * (double)half);
+        return;
     }
     for (int c = 0; c < line_channels(); c++) {
         out->tau[c] += (double)rgb_get(a, c) * (double)half;
@@ -483,18 +494,46 @@ HD void line_stretch(const flat_scene *s, line_job *job, const media_walk *w,
     line_halves(out, &x, 0.5f * length);
 }
 
+/* Whether there is nothing more in the current piece. */
+HD bool line_passed_piece(const line_flight *f)
+{
+    return !(f->t < f->walk.t_end) || line_piece_empty(&f->walk);
+}
+
+/* To the beginning of the next. False: the line has ended. */
+HD bool line_next_piece(const flat_scene *s, line_flight *f)
+{
+    if (!walk_next(s, &f->walk))
+        return false;
+    f->t = f->walk.t;
+    return true;
+}
+
+/* The end of the stretch between planes from f->t on, in a piece in which there
+ * is more. */
+HD float line_find_stop(line_flight *f)
+{
+    line_advance(&f->job, f->t);
+    return line_stop(&f->job, f->t, f->walk.t_end);
+}
+
 /* Finds the next stretch between planes that is not empty, from f->t to *stop.
  * False: the line has ended. */
 HD bool line_next(const flat_scene *s, line_flight *f, float *stop)
 {
-    while (!(f->t < f->walk.t_end) || line_piece_empty(&f->walk)) {
-        if (!walk_next(s, &f->walk))
+    while (line_passed_piece(f))
+        if (!line_next_piece(s, f))
             return false;
-        f->t = f->walk.t;
-    }
-    line_advance(&f->job, f->t);
-    *stop = line_stop(&f->job, f->t, f->walk.t_end);
+    *stop = line_find_stop(f);
     return true;
+}
+
+/* Adds the stretch from f->t on. */
+HD void line_add_stretch(const flat_scene *s, line_flight *f, float stop,
+                         line_integral *out)
+{
+    line_stretch(s, &f->job, &f->walk, f->t, stop, out);
+    f->t = stop;
 }
 
 /* False: the line has ended. */
@@ -503,8 +542,7 @@ HD bool line_step(const flat_scene *s, line_flight *f, line_integral *out)
     float stop;
     if (!line_next(s, f, &stop))
         return false;
-    line_stretch(s, &f->job, &f->walk, f->t, stop, out);
-    f->t = stop;
+    line_add_stretch(s, f, stop, out);
     return true;
 }
 

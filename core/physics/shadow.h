@@ -67,27 +67,72 @@ HD rgb shadow_transmittance(const flat_scene *s, container_set *set,
     return left;
 }
 
-/* The same without noise: media by their line integral. */
-HD rgb shadow_line(const flat_scene *s, container_set *set, vec3 o, vec3 wi,
-                   float distance, line_jitter jitter)
+/* The same without noise, media by their line integral: a line on its way,
+ * segment by segment. What is had at each step is apart, see line_flight. */
+typedef struct {
+    vec3 o, wi;
+    float distance;
+    line_jitter jitter;
+    container_set inside;
+    ray_hit after, hit;     /* the ends of the segment                     */
+    rgb left;               /* by surfaces; once it has ended, by all      */
+} shadow_way;
+
+HD shadow_way shadow_begin(const container_set *inside, vec3 o, vec3 wi,
+                           float distance, line_jitter jitter)
 {
-    bvh_ray r = bvh_ray_make(o, wi);
-    ray_hit after = hit_start(0.0f);
-    rgb left = rgb_gray(1.0f);
-    line_integral line = line_zero();
-    for (;;) {
-        ray_hit h = bvh_nearest(s, &r, &after, distance);
-        if (h.shape >= 0)
-            left = rgb_mul(left, shadow_surface(s, &r, &h));
-        if (rgb_is_black(left))
-            return left;
-        line_integrate(s, set, o, wi, after.t, h.t, 0.0f, false, false,
-                       jitter, &line);
-        if (h.shape < 0)
-            return rgb_mul(left, line_transmittance(&line));
-        shadow_cross(s, &h, set);
-        after = h;
+    shadow_way w;
+    w.o = o;
+    w.wi = wi;
+    w.distance = distance;
+    w.jitter = jitter;
+    w.inside = *inside;
+    w.after = w.hit = hit_start(0.0f);
+    w.left = rgb_gray(1.0f);
+    return w;
+}
+
+/* To the next surface. True: through media, step by step. */
+HD bool shadow_look(const flat_scene *s, shadow_way *w, line_integral *line,
+                    line_flight *f)
+{
+    bvh_ray r = bvh_ray_make(w->o, w->wi);
+    w->hit = bvh_nearest(s, &r, &w->after, w->distance);
+    if (w->hit.shape >= 0)
+        w->left = rgb_mul(w->left, shadow_surface(s, &r, &w->hit));
+    return !rgb_is_black(w->left) &&
+           line_begin(s, &w->inside, w->o, w->wi, w->after.t, w->hit.t, 0.0f,
+                      false, false, w->jitter, line, f);
+}
+
+/* At the end of a segment. False: that was the last. */
+HD bool shadow_land(const flat_scene *s, shadow_way *w,
+                    const line_integral *line)
+{
+    if (rgb_is_black(w->left))
+        return false;
+    if (w->hit.shape < 0) {
+        w->left = rgb_mul(w->left, line_transmittance(line));
+        return false;
     }
+    shadow_cross(s, &w->hit, &w->inside);
+    w->after = w->hit;
+    return true;
+}
+
+/* The whole of it. */
+HD rgb shadow_line(const flat_scene *s, const container_set *set, vec3 o,
+                   vec3 wi, float distance, line_jitter jitter)
+{
+    shadow_way w = shadow_begin(set, o, wi, distance, jitter);
+    line_integral line = line_zero();
+    line_flight f;
+    do {
+        bool more = shadow_look(s, &w, &line, &f);
+        while (more)
+            more = line_step(s, &f, &line);
+    } while (shadow_land(s, &w, &line));
+    return w.left;
 }
 
 #endif
