@@ -21,12 +21,11 @@ static void light_brick(void *context, size_t index, int thread)
     (void)thread;
     const struct cpu_state *s = context;
     const flat_scene *v = &s->frame.flat->view;
-    track_counters count = {0};
     if (v->radiance_slots[index] < 0)
         return;
     for (int i = 0; i < 512; i++)
         lit_cell_run(v, s->job.seed, s->job.frame, index, i,
-                     s->frame.flat->radiance, &count);
+                     s->frame.flat->radiance);
 }
 
 static void sharpen_brick(void *context, size_t index, int thread)

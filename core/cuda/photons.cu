@@ -51,13 +51,15 @@ size_t list_bytes(const cuda_state *s)
     return device_round(list_room(s) * s->births->state_bytes);
 }
 
-/* Bytes of a list of all the field's cells, where they are of balls. */
+/* Bytes of a list of all the field's cells, where some are looked for. */
 size_t cell_list_bytes(const backend_frame *frame)
 {
     const flat_scene *view = &frame->flat->view;
-    size_t numbers = static_cast<size_t>(view->field.numbers);
-    return view->field.ball ? view->radiance_count / numbers * sizeof(unsigned)
-                            : 0;
+    const radiance_lattice *f = &view->field;
+    return f->ball || f->single || f->lit
+               ? view->radiance_count / static_cast<size_t>(f->numbers) *
+                     sizeof(uint64_t)
+               : 0;
 }
 
 double book_of(unsigned long long sum)
@@ -211,7 +213,7 @@ bool photons_open(cuda_state *s, brume_error *err)
     s->queue = static_cast<photon_queue *>(device_take(a, sizeof *s->queue));
     s->cell_queue = static_cast<cell_queue *>(
         device_take(a, sizeof *s->cell_queue));
-    s->cell_list = static_cast<unsigned *>(
+    s->cell_list = static_cast<uint64_t *>(
         device_take(a, cell_list_bytes(&s->frame)));
     return device_check(cudaMemset(s->sum, 0, bytes), "clearing the field",
                         err);
@@ -300,8 +302,10 @@ bool cuda_gather(void *state, double unit, brume_error *err)
         cudaMemsetAsync(s->cell_queue, 0, sizeof *s->cell_queue);
         s->photons->balls(&job);
     }
-    if (f->single || f->lit)
+    if (f->single || f->lit) {
+        cudaMemsetAsync(s->cell_queue, 0, sizeof *s->cell_queue);
         s->photons->light(&job);
+    }
     return device_check(cudaGetLastError(), "launching the gather stage",
                         err) &&
            device_clock_stop(&s->clock, 1, "the gather stage", err) &&
@@ -377,7 +381,7 @@ bool cuda_renew(void *state, brume_error *err)
     s->cells = static_cast<float *>(device_take(&s->field, cells));
     to->radiance = s->cells;
     s->sum = static_cast<int64_t *>(device_take(&s->field, sums));
-    s->cell_list = static_cast<unsigned *>(device_take(&s->field, list));
+    s->cell_list = static_cast<uint64_t *>(device_take(&s->field, list));
     return device_check(cudaMemcpy(at, from->radiance_slots, slots,
                                    cudaMemcpyHostToDevice),
                         "uploading the field", err) &&

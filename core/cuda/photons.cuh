@@ -64,7 +64,8 @@ struct cell_job {
     uint64_t seed;
     uint32_t frame;
     float *cells;
-    unsigned *list;             /* of cells of balls, room for all         */
+    uint64_t *list;             /* of some of them, room for all: 512 times
+                                   the brick, and the number in it         */
     cell_queue *queue;          /* 0                                       */
     int processors;
 };

@@ -359,16 +359,20 @@ trace_photons(const __grid_constant__ trace_job job)
     write_counts(&job, count);
 }
 
-const int cells_at_once = 128; /* of a brick of 512, in one block */
+const int cells_of_brick = 512;
+const int cells_at_once = 128; /* of them, in one block */
 
 /* No fewer than a multiprocessor has room for. */
 const int blocks_of_balls = 6;
+
+/* As many as a multiprocessor has room for: 128 registers a thread. */
+const int blocks_of_light = 4;
 
 /* The brick and the number in it of a thread's cell; false: it is not there. */
 __device__ __forceinline__ bool find_cell(const cell_job *job, uint64_t *brick,
                                           int *cell)
 {
-    const int blocks = 512 / cells_at_once;
+    const int blocks = cells_of_brick / cells_at_once;
     *brick = blockIdx.x / blocks;
     *cell = static_cast<int>(blockIdx.x % blocks * cells_at_once + threadIdx.x);
     return *brick < job->scene.radiance_slots_count &&
@@ -385,8 +389,7 @@ list_cells(const __grid_constant__ cell_job job)
                ball_cell_has(&job.scene, brick, cell, job.cells);
     unsigned at = take_numbers(&job.queue->listed, has);
     if (has)
-        job.list[at] = static_cast<unsigned>(brick * 512) +
-                       static_cast<unsigned>(cell);
+        job.list[at] = brick * cells_of_brick + static_cast<unsigned>(cell);
 }
 
 /* The threads that find what is in a ball: a warp. Of several media, which are
@@ -414,26 +417,144 @@ ball_cells(const __grid_constant__ cell_job job)
     do {
         i = take_ball(&job, t);
         if (i < n)
-            ball_cell_run(&job.scene, job.list[i] / 512,
-                          static_cast<int>(job.list[i] % 512), job.cells, t);
+            ball_cell_run(&job.scene, job.list[i] / cells_of_brick,
+                          static_cast<int>(job.list[i] % cells_of_brick),
+                          job.cells, t);
     } while (__any_sync(~0u, i < n));
 }
 
-__global__ void __launch_bounds__(cells_at_once, 4)
+/* Whether balls around cells have some of the only medium: that of each thread
+ * that asks, of which one point tells most often, else those of all threads. */
+__device__ __forceinline__ bool find_media(const flat_scene *s, vec3 x,
+                                           bool asks)
+{
+    bool has = asks && ball_finds(s, x, 0, BALL_PAIRS);
+    unsigned rest = __ballot_sync(~0u, asks && !has);
+    int lane = threadIdx.x % warp_size;
+    for (; rest != 0u; rest &= rest - 1u) {
+        int owner = __ffs(rest) - 1;
+        vec3 at = vec3_make(__shfl_sync(~0u, x.x, owner),
+                            __shfl_sync(~0u, x.y, owner),
+                            __shfl_sync(~0u, x.z, owner));
+        bool found = __any_sync(~0u, ball_finds(s, at, lane, warp_size));
+        has = has || (found && lane == owner);
+    }
+    return has;
+}
+
+/* Numbers in a count for those threads of a block that ask, in their order; all
+ * are here. */
+__device__ __forceinline__ unsigned take_in_order(unsigned *count, bool asks)
+{
+    __shared__ unsigned first[cells_of_brick / warp_size];
+    int lane = threadIdx.x % warp_size, warp = threadIdx.x / warp_size;
+    unsigned all = __ballot_sync(~0u, asks);
+    if (lane == 0)
+        first[warp] = __popc(all);
+    __syncthreads();
+    if (threadIdx.x == 0) {
+        unsigned sum = 0;
+        for (int i = 0; i < cells_of_brick / warp_size; i++) {
+            unsigned own = first[i];
+            first[i] = sum;
+            sum += own;
+        }
+        unsigned from = sum > 0 ? atomicAdd(count, sum) : 0;
+        for (int i = 0; i < cells_of_brick / warp_size; i++)
+            first[i] += from;
+    }
+    __syncthreads();
+    return first[warp] + __popc(all & ((1u << lane) - 1u));
+}
+
+/* Lists the cells that may have light, brick by brick: lines of cells that lie
+ * side by side are about as long. */
+__global__ void __launch_bounds__(cells_of_brick)
+list_lit(const __grid_constant__ cell_job job)
+{
+    const flat_scene *s = &job.scene;
+    uint64_t brick = blockIdx.x;
+    int cell = static_cast<int>(threadIdx.x);
+    bool has = brick < s->radiance_slots_count &&
+               s->radiance_slots[brick] >= 0 && lit_cell_may(s, brick, cell);
+    if (SCENE_SOLE && scene_may(MAY_BALLS) && s->field.ball) {
+        vec3 x = vec3_make(0.0f, 0.0f, 0.0f);
+        if (has)
+            x = radiance_middle(s, brick, cell);
+        has = find_media(s, x, has);
+    }
+    unsigned at = take_in_order(&job.queue->listed, has);
+    if (has)
+        job.list[at] = brick * cells_of_brick + static_cast<unsigned>(cell);
+}
+
+/* Gives threads that wait for one the next cells of the list. */
+__device__ __forceinline__ void take_lit(const cell_job *job, lit_task *t,
+                                         lit_liner *l)
+{
+    bool asks = l->next == LIT_TAKES;
+    unsigned i = take_numbers(&job->queue->taken, asks);
+    if (asks && i >= job->queue->listed)
+        l->next = LIT_ENDS;
+    else if (asks)
+        lit_take(&job->scene, job->seed, job->frame,
+                 job->list[i] / cells_of_brick,
+                 static_cast<int>(job->list[i] % cells_of_brick), job->cells,
+                 t, l);
+}
+
+/* Goes along the lines of a warp's threads, to the ends of their segments. All
+ * meet between what is of pieces and what is along them. */
+__device__ __forceinline__ void step_lit(const flat_scene *s, lit_liner *l)
+{
+    while (__any_sync(~0u, l->next == LIT_STEPS)) {
+        if (l->next == LIT_STEPS)
+            lit_skip(s, l);
+        __syncwarp();
+        if (l->next == LIT_STEPS)
+            lit_step(s, l);
+    }
+}
+
+/* Where each thread keeps what the steps of its line have nothing to do with:
+ * the compiler is not to see that it could be in registers. */
+__device__ __forceinline__ lit_task *apart(lit_task *task)
+{
+    asm volatile("" : "+l"(task));
+    return task;
+}
+
+/* Threads that stay take the cells of the list, a warp those that lie together:
+ * their lines are about as long. */
+__global__ void __launch_bounds__(cells_at_once, blocks_of_light)
 light_cells(const __grid_constant__ cell_job job)
 {
-    uint64_t brick;
-    int cell;
-    track_counters count = {};
-    if (find_cell(&job, &brick, &cell))
-        lit_cell_run(&job.scene, job.seed, job.frame, brick, cell, job.cells,
-                     &count);
+    const flat_scene *s = &job.scene;
+    lit_task task, *t = apart(&task);
+    lit_liner l;
+    l.next = LIT_TAKES;
+    while (__any_sync(~0u, l.next != LIT_ENDS)) {
+        if (l.next == LIT_LANDS)
+            lit_land(s, t, &l);
+        if (!__any_sync(~0u, l.next != LIT_TAKES && l.next != LIT_ENDS))
+            take_lit(&job, t, &l);
+        if (l.next == LIT_CHOOSES)
+            lit_choose(s, t, &l);
+        if (l.next == LIT_SEEKS)
+            lit_seek(s, t, &l);
+        step_lit(s, &l);
+    }
+}
+
+unsigned bricks_of(const cell_job *job)
+{
+    unsigned bricks = static_cast<unsigned>(job->scene.radiance_slots_count);
+    return bricks > 0 ? bricks : 1u;
 }
 
 unsigned cell_blocks(const cell_job *job)
 {
-    unsigned bricks = static_cast<unsigned>(job->scene.radiance_slots_count);
-    return (bricks > 0 ? bricks : 1u) * (512 / cells_at_once);
+    return bricks_of(job) * (cells_of_brick / cells_at_once);
 }
 
 void bear(const trace_job *job)
@@ -463,7 +584,8 @@ void balls(const cell_job *job)
 
 void light(const cell_job *job)
 {
-    light_cells<<<cell_blocks(job), cells_at_once>>>(*job);
+    list_lit<<<bricks_of(job), cells_of_brick>>>(*job);
+    light_cells<<<blocks_of_light * job->processors, cells_at_once>>>(*job);
 }
 
 }

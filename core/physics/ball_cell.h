@@ -188,6 +188,20 @@ HD void ball_add_pairs(const flat_scene *s, vec3 x, int what, team t,
     p->squares = team_float(t, until.squares, last);
 }
 
+/* Whether a point of the field's ball around x, of those of a place of `size`
+ * that have them in turn, has something of the only medium. */
+HD bool ball_finds(const flat_scene *s, vec3 x, int place, int size)
+{
+    for (int i = place; i < 2 * BALL_PAIRS; i += size) {
+        ball_media at;
+        at.count = 0;
+        ball_add_point(s, &at, ball_place(s, x, i));
+        if (at.count > 0 && at.density[0].r > 0.0f)
+            return true;
+    }
+    return false;
+}
+
 /* The media of the field's ball around x. */
 HD ball_media ball_media_at(const flat_scene *s, vec3 x, int what, team t)
 {
@@ -207,6 +221,41 @@ HD ball_media ball_media_at(const flat_scene *s, vec3 x, int what, team t)
     }
     p.sum.thickness = ball_thickness(s, &p.sum);
     return p.sum;
+}
+
+/* Whether the cells of a medium's majorants tell that it is nowhere in the
+ * field's ball around x; its points may lie a little beyond. */
+HD bool ball_lacks(const flat_scene *s, const flat_medium *m, vec3 x)
+{
+    vec3 at = affine_point(&m->to_cell, x);
+    int lo[3], hi[3];
+    if (m->uniform || m->functions || m->outside.density != 0.0f)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        float r = 1.001f * ball_reach(&m->to_cell, i, s->field.radius) + 0.001f;
+        lo[i] = hd_floor(hd_max(vec3_get(at, i) - r, 0.0f));
+        hi[i] = hd_floor(hd_min(vec3_get(at, i) + r,
+                                (float)m->cells[i] - 0.5f));
+    }
+    for (int c = lo[2]; c <= hi[2]; c++)
+        for (int b = lo[1]; b <= hi[1]; b++)
+            for (int a = lo[0]; a <= hi[0]; a++) {
+                uint64_t row = (uint64_t)b +
+                               (uint64_t)m->cells[1] * (uint64_t)c;
+                if (s->cells[m->cell + (uint64_t)a +
+                             (uint64_t)m->cells[0] * row].density != 0.0f)
+                    return false;
+            }
+    return true;
+}
+
+/* Whether they tell so of all media. */
+HD bool ball_is_empty(const flat_scene *s, vec3 x)
+{
+    for (uint64_t i = 0; i < s->media_count; i++)
+        if (!ball_lacks(s, scene_medium(s, (int)i), x))
+            return false;
+    return true;
 }
 
 /* What the media of the ball scatter along d of light from wi, per light C and
