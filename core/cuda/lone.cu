@@ -29,7 +29,7 @@ __device__ __forceinline__ void bear_one(const trace_job *job, unsigned i,
     lone_born p;
     bool alive = i < job->born &&
                  lone_begin(&job->scene, &job->lone, &job->photons,
-                            job->first + i, &p.photon, &p.weight, count);
+                            job->first + i, &p.photon, &p.rest, count);
     unsigned at = take_numbers(&job->queue->left[job->turn], alive);
     if (alive)
         static_cast<lone_born *>(job->list[job->turn])[at] = p;

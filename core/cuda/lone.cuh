@@ -9,7 +9,7 @@
 /* A photon as it waits in a list. */
 struct lone_born {
     lone_photon photon;
-    lone_weight weight;
+    lone_rest rest;
 };
 
 /* Photons of a job are born, and come to the container or end before. */

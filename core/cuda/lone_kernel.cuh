@@ -50,8 +50,8 @@ enum { FOUR_O, FOUR_D, FOUR_AT, FOUR_INVERSE, FOUR_NEXT, FOUR_TINTS };
 struct lone_memory {
     lone_four four[2][scene_may(MAY_TINTS) ? 6 : 5][lone_threads];
     uint32_t word[LONE_WORDS][lone_threads];
-    lone_weight weight[lone_threads];
-    photon_books books[lone_threads];
+    lone_rest rest[lone_threads];
+    lone_counts count[lone_threads];
 };
 
 __device__ __forceinline__ int threads_where(bool here)
@@ -66,7 +66,7 @@ __device__ __forceinline__ lone_born *lone_list(const trace_job *job, int turn)
 
 /* Gives threads without one the next photons of the list. */
 __device__ __forceinline__ void take_photons(const trace_job *job,
-                                             lone_tracer *t, lone_weight *w)
+                                             lone_tracer *t, lone_rest *w)
 {
     bool idle = t->next == LONE_TAKES;
     unsigned i = take_numbers(&job->queue->taken, idle);
@@ -76,7 +76,7 @@ __device__ __forceinline__ void take_photons(const trace_job *job,
         const lone_born *from = &lone_list(job, job->turn)[i];
         t->photon = from->photon;
         t->photon.numbers.drawn = t->photon.numbers.next / 4u;
-        *w = from->weight;
+        *w = from->rest;
         t->next = LONE_FLIES;
     }
 }
@@ -84,7 +84,7 @@ __device__ __forceinline__ void take_photons(const trace_job *job,
 /* Leaves photons at the beginning of a flight to the next launch. */
 __device__ __forceinline__ void leave_photons(const trace_job *job,
                                               lone_tracer *t,
-                                              const lone_weight *w)
+                                              const lone_rest *w)
 {
     bool leaves = t->next == LONE_FLIES;
     unsigned i = take_numbers(&job->queue->left[!job->turn], leaves);
@@ -96,13 +96,13 @@ __device__ __forceinline__ void leave_photons(const trace_job *job,
 
 /* What few threads wait for. */
 __device__ __forceinline__ void serve(const trace_job *job, lone_tracer *t,
-                                      lone_weight *w)
+                                      lone_rest *w)
 {
     bool waits = t->next == LONE_TAKES || t->next == LONE_SEEKS;
     unsigned fly = __ballot_sync(~0u, t->next == LONE_FLIES);
     if (threads_where(waits) >= serve_threads || fly == 0u) {
         if (t->next == LONE_SEEKS) {
-            lone_seek(&job->scene, &job->lone, &t->photon);
+            lone_seek(&job->scene, &job->lone, &t->photon, w);
             t->next = LONE_FLIES;
         }
         take_photons(job, t, w);
@@ -172,10 +172,11 @@ __device__ __forceinline__ lone_walk get_walk(lone_memory *m, int place)
 
 /* A cell of what a thread lays; then what waits is begun. */
 __device__ __forceinline__ void lay_cell(const trace_job *job, lone_memory *m,
-                                         lone_layer *y, radiance_tally *tally)
+                                         lone_layer *y)
 {
     lone_line line = get_line(m, y->place);
-    y->busy = lone_lay(&job->scene, &job->lone, tally, &line, &y->walk);
+    y->busy = lone_lay(&job->scene, &job->lone, job->sum,
+                       &m->count[threadIdx.x], &line, &y->walk);
     if (!y->busy && y->waits) {
         y->place = !y->place;
         y->walk = get_walk(m, y->place);
@@ -186,8 +187,7 @@ __device__ __forceinline__ void lay_cell(const trace_job *job, lone_memory *m,
 
 /* Lays cells until there are photons enough to fly, or all is laid. */
 __device__ __forceinline__ void lay_cells(const trace_job *job, lone_memory *m,
-                                          const lone_tracer *t, lone_layer *y,
-                                          radiance_tally *tally)
+                                          const lone_tracer *t, lone_layer *y)
 {
     int all = threads_where(t->next == LONE_FLIES);
     for (;;) {
@@ -197,81 +197,77 @@ __device__ __forceinline__ void lay_cells(const trace_job *job, lone_memory *m,
         if (lay == 0 || (enough && lay < lay_threads))
             return;
         if (y->busy)
-            lay_cell(job, m, y, tally);
+            lay_cell(job, m, y);
     }
 }
 
 /* Draws numbers for flights; while at it, for those to come. */
-__device__ __forceinline__ void draw(const trace_job *job, lone_tracer *t,
-                                     uint32_t *words)
+__device__ __forceinline__ void draw(const trace_job *job, lone_memory *m,
+                                     lone_tracer *t)
 {
     lone_stream *n = &t->photon.numbers;
     bool flies = t->next == LONE_FLIES;
     while (__any_sync(~0u, flies && lone_ready(n) < LONE_NEEDS))
         if (flies && lone_ready(n) + 4 <= static_cast<int>(LONE_WORDS))
-            lone_draw(&job->lone, n, words);
+            lone_draw(&job->lone, m->rest[threadIdx.x].path, n,
+                      &m->word[0][threadIdx.x]);
 }
 
 /* A flight of each photon that is at the beginning of one. */
 __device__ __forceinline__ void fly(const trace_job *job, lone_memory *m,
-                                    lone_tracer *t, lone_layer *y,
-                                    const radiance_tally *tally,
-                                    lone_counts *count)
+                                    lone_tracer *t, lone_layer *y)
 {
-    lone_weight *w = &m->weight[threadIdx.x];
+    lone_counts *count = &m->count[threadIdx.x];
+    lone_rest *w = &m->rest[threadIdx.x];
+    const uint32_t *words = &m->word[0][threadIdx.x];
     lone_end f;
     if (t->next == LONE_FLIES && !y->waits)
-        t->next = lone_fly(&job->lone, &t->photon, w,
-                           &m->word[0][threadIdx.x], &f, count);
+        t->next = lone_fly(&job->lone, &t->photon, w, words, &f, count);
     if (t->next == LONE_LAYS) {
         int place = y->busy ? !y->place : y->place;
         lone_line line;
         lone_walk walk;
-        if (lone_lays(&job->scene, &job->lone, &t->photon, &f, tally, &line,
-                      &walk)) {
+        if (lone_lays(&job->scene, &job->lone, &t->photon, &f, &line, &walk)) {
             put_stretch(m, place, &line, &walk);
             y->waits = y->busy;
             y->walk = y->busy ? y->walk : walk;
             y->busy = true;
         }
-        t->next = lone_land(&job->scene, &job->lone, &t->photon, w, &f,
-                            &m->books[threadIdx.x], count);
+        t->next = lone_land(&job->scene, &job->lone, &t->photon, w, words, &f,
+                            count);
     }
     if (t->next == LONE_ENDS)
         t->next = LONE_TAKES;
 }
 
 __device__ __forceinline__ void write_counts(const trace_job *job,
-                                             const photon_books *books,
-                                             const radiance_tally *tally,
                                              const lone_counts *count)
 {
     photon_totals *total = job->total;
     count_warp(&total->track.rays, count->rays);
     count_warp(&total->track.lookups, count->lookups);
     count_warp(&total->events, count->events);
-    count_warp(&total->clipped, tally->clipped);
-    count_books(total, books);
+    count_warp(&total->clipped, count->clipped);
+#define X(name) count_warp(&total->name, static_cast<uint64_t>(count->name));
+    LONE_BOOKS(X)
+#undef X
 }
 
 __global__ void __launch_bounds__(lone_threads, lone_blocks)
 trace_lone(const __grid_constant__ trace_job job)
 {
     __shared__ lone_memory m;
-    lone_counts count = {};
-    radiance_tally tally = {};
     lone_tracer t;
     lone_layer y = {};
-    m.books[threadIdx.x] = {};
-    tally.sum = job.sum;
+    m.count[threadIdx.x] = {};
     t.next = LONE_TAKES;
     while (__any_sync(~0u, t.next != LONE_WAITS || y.busy)) {
-        serve(&job, &t, &m.weight[threadIdx.x]);
-        lay_cells(&job, &m, &t, &y, &tally);
-        draw(&job, &t, &m.word[0][threadIdx.x]);
-        fly(&job, &m, &t, &y, &tally, &count);
+        serve(&job, &t, &m.rest[threadIdx.x]);
+        lay_cells(&job, &m, &t, &y);
+        draw(&job, &m, &t);
+        fly(&job, &m, &t, &y);
     }
-    write_counts(&job, &m.books[threadIdx.x], &tally, &count);
+    write_counts(&job, &m.count[threadIdx.x]);
 }
 
 cudaError_t trace(const trace_job *job, unsigned blocks, int threads)

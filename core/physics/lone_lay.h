@@ -70,18 +70,18 @@ HD bool lone_begin_walk(const flat_scene *s, const lone_scene *l, bool inside,
 /* Begins to lay a flight; false: there is nothing to lay. */
 HD bool lone_lays(const flat_scene *s, const lone_scene *l,
                   const lone_photon *p, const lone_end *f,
-                  const radiance_tally *t, lone_line *line, lone_walk *w)
+                  lone_line *line, lone_walk *w)
 {
-    bool sure = (p->marks & (LONE_SURE | LONE_BEHIND)) == LONE_SURE;
-    if (!(p->marks & LONE_STORED) || !t->sum)
+    bool sure = (p->marks & (LONE_SURE | LONE_BEHIND | LONE_SOUGHT)) ==
+                LONE_SURE;
+    if (!(p->marks & LONE_STORED))
         return false;
     line->o = p->o;
     line->d = p->d;
     line->power = lone_beta(p->lays);
     w->t = p->laid;
     w->end = f->t;
-    return lone_begin_walk(s, l, p->end < 0.0f && sure && l->covered, p, line,
-                           w);
+    return lone_begin_walk(s, l, sure && l->covered, p, line, w);
 }
 
 /* radiance_to_eye. */
@@ -93,31 +93,35 @@ HD vec3 lone_to_eye(const flat_scene *s, vec3 p)
 }
 
 /* radiance_deposit, of any field; returns how many were too large. */
-HD_APART uint64_t lone_deposit_any(const flat_scene *s, int64_t *sum,
-                                   int32_t cell, vec3 p, vec3 d, rgb value)
+HD_APART track_count lone_deposit_any(const flat_scene *s, int64_t *sum,
+                                      int32_t cell, vec3 p, vec3 d, rgb value)
 {
     radiance_tally t;
     t.sum = sum;
     t.clipped = 0;
     radiance_deposit(s, &t, cell, p, d, value);
-    return t.clipped;
+    return (track_count)t.clipped;
 }
 
-HD void lone_deposit(const flat_scene *s, const lone_scene *l,
-                     radiance_tally *t, int32_t cell, vec3 p, vec3 d,
+HD void lone_deposit(const flat_scene *s, const lone_scene *l, int64_t *sum,
+                     lone_counts *count, int32_t cell, vec3 p, vec3 d,
                      rgb value)
 {
+    radiance_tally t;
+    t.clipped = 0;
     if (!l->peaked) {
-        t->clipped += lone_deposit_any(s, t->sum, cell, p, d, value);
+        count->clipped += lone_deposit_any(s, sum, cell, p, d, value);
         return;
     }
-    if (radiance_clips(t, value))
+    if (radiance_clips(&t, value)) {
+        count->clipped++;
         return;
+    }
     vec3 off = vec3_sub(d, lone_to_eye(s, p));
     float x = l->law[0] + l->law[1] * (0.5f * vec3_dot(off, off));
     float law = fm_over_within(l->law[2], x * fm_root_within(x));
     uint64_t first = (uint64_t)(uint32_t)cell * (uint32_t)s->field.numbers;
-    radiance_add_rgb(t->sum + s->field.eye + first, rgb_scale(value, law));
+    radiance_add_rgb(sum + s->field.eye + first, rgb_scale(value, law));
 }
 
 /* The cell in which a walk is: its number, or -1. */
@@ -143,8 +147,8 @@ HD float lone_leaves_cell(const lone_walk *w)
 }
 
 /* radiance_lay for a field whose cells are of one size. */
-HD bool lone_lay(const flat_scene *s, const lone_scene *l, radiance_tally *t,
-                 const lone_line *y, lone_walk *w)
+HD bool lone_lay(const flat_scene *s, const lone_scene *l, int64_t *sum,
+                 lone_counts *count, const lone_line *y, lone_walk *w)
 {
     float from = w->t;
     int32_t cell = lone_cell(s, w->cell), at;
@@ -160,8 +164,9 @@ HD bool lone_lay(const flat_scene *s, const lone_scene *l, radiance_tally *t,
     if (cell < 0 || !(length > 0.0f))
         return more;
     float share = fm_over_known(length, s->field.side, l->per_side);
-    lone_deposit(s, l, t, cell, vec3_mad(y->o, from + 0.5f * length, y->d),
-                 y->d, rgb_scale(lone_beta(y->power), share));
+    lone_deposit(s, l, sum, count, cell,
+                 vec3_mad(y->o, from + 0.5f * length, y->d), y->d,
+                 rgb_scale(lone_beta(y->power), share));
     return more;
 }
 

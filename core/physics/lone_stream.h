@@ -8,7 +8,6 @@
 /* A GPU's threads draw blocks of numbers together, and take as many of the
  * words as they need. */
 typedef struct {
-    uint32_t path[2];
     uint32_t next;          /* word of the stream                          */
     uint32_t drawn;         /* blocks, from the first one on               */
 } lone_stream;
@@ -23,7 +22,7 @@ typedef struct {
 #endif
 
 /* Words that are there before a flight, for it and what happens at its end. */
-#define LONE_NEEDS 5
+#define LONE_NEEDS 7
 
 /* How many words are there. */
 HD int32_t lone_ready(const lone_stream *n)
@@ -31,13 +30,15 @@ HD int32_t lone_ready(const lone_stream *n)
     return (int32_t)(4u * n->drawn - n->next);
 }
 
-/* Draws a block, as rng_u32 has it, with what all photons' rounds share. There
- * is room for it where no more than LONE_WORDS - 4 words are there. */
-HD void lone_draw(const lone_scene *l, lone_stream *n, uint32_t *words)
+/* Draws a block of a photon's path, as rng_u32 has it, with what all photons'
+ * rounds share. There is room for it where no more than LONE_WORDS - 4 words
+ * are there. */
+HD void lone_draw(const lone_scene *l, const uint32_t *path, lone_stream *n,
+                  uint32_t *words)
 {
     uint32_t c[4], first = 4u * n->drawn % LONE_WORDS;
-    c[0] = n->path[0];
-    c[1] = n->path[1];
+    c[0] = path[0];
+    c[1] = path[1];
     c[2] = PHOTON_PASS;
     c[3] = n->drawn++;
     for (int i = 0; i < RNG_ROUNDS; i++)
@@ -46,19 +47,21 @@ HD void lone_draw(const lone_scene *l, lone_stream *n, uint32_t *words)
         words[(first + i) * LONE_STRIDE] = c[i];
 }
 
-HD uint32_t lone_word(const lone_stream *n, const uint32_t *words, uint32_t i)
+/* The i-th word from the next one on; i < 0: one that was taken. */
+HD uint32_t lone_word(const lone_stream *n, const uint32_t *words, int i)
 {
-    return words[(n->next + i) % LONE_WORDS * LONE_STRIDE];
+    return words[(n->next + (uint32_t)i) % LONE_WORDS * LONE_STRIDE];
 }
 
 /* The stream from the next word on. */
-HD rng lone_random(const lone_scene *l, const lone_stream *n)
+HD rng lone_random(const lone_scene *l, const uint32_t *path,
+                   const lone_stream *n)
 {
     rng r;
     r.key[0] = l->key[0];
     r.key[1] = l->key[1];
-    r.counter[0] = n->path[0];
-    r.counter[1] = n->path[1];
+    r.counter[0] = path[0];
+    r.counter[1] = path[1];
     r.counter[2] = PHOTON_PASS;
     r.counter[3] = n->next / 4u;
     r.used = 4u;
@@ -74,51 +77,27 @@ HD void lone_set_random(lone_stream *n, const rng *r)
     n->drawn = n->next / 4u;
 }
 
-/* What may be taken, in this order: a depth; at a tentative collision, the
+/* What a flight takes, in this order: a depth; at a tentative collision, the
  * depth to the next one, which is drawn before it is known whether the flight
- * goes on, and what happens; where that is scattering, where to. */
+ * goes on, and what happens. Where that is scattering two more words tell where
+ * to. */
 typedef struct {
-    uint32_t depth[2], next[2], choice, turn[2];
-    uint32_t fly, collide;  /* words of the first; with the next two       */
+    uint32_t depth[2], next[2], choice;
+    int fly, collide;       /* words of the first; of all                  */
 } lone_numbers;
 
-/* Where a depth needs two words. */
-HD_APART lone_numbers lone_look_far(const lone_scene *l, lone_stream from,
-                                    bool drawn)
+/* Looks at what comes; `drawn`: the first depth is. */
+HD lone_numbers lone_look(const lone_stream *m, const uint32_t *words,
+                          bool drawn)
 {
     lone_numbers n;
-    rng r = lone_random(l, &from);
-    n.depth[0] = n.depth[1] = n.fly = 0u;
-    if (!drawn) {
-        n.depth[0] = rng_u32(&r);
-        n.depth[1] = rng_depth_is_end(n.depth[0]) ? rng_u32(&r) : 0u;
-        n.fly = rng_depth_is_end(n.depth[0]) ? 2u : 1u;
-    }
-    n.next[0] = rng_u32(&r);
-    n.next[1] = rng_depth_is_end(n.next[0]) ? rng_u32(&r) : 0u;
-    n.collide = n.fly + (rng_depth_is_end(n.next[0]) ? 3u : 2u);
-    n.choice = rng_u32(&r);
-    n.turn[0] = rng_u32(&r);
-    n.turn[1] = rng_u32(&r);
-    return n;
-}
-
-/* Looks at what comes, of LONE_NEEDS words that are there; `drawn`: a depth
- * is. */
-HD lone_numbers lone_look(const lone_scene *l, const lone_stream *m,
-                          const uint32_t *words, bool drawn)
-{
-    lone_numbers n;
-    n.fly = drawn ? 0u : 1u;
-    n.collide = n.fly + 2u;
-    n.depth[0] = lone_word(m, words, 0u);
+    n.depth[0] = lone_word(m, words, 0);
+    n.depth[1] = rng_depth_is_end(n.depth[0]) ? lone_word(m, words, 1) : 0u;
+    n.fly = drawn ? 0 : rng_depth_is_end(n.depth[0]) ? 2 : 1;
     n.next[0] = lone_word(m, words, n.fly);
-    n.choice = lone_word(m, words, n.fly + 1u);
-    n.turn[0] = lone_word(m, words, n.fly + 2u);
-    n.turn[1] = lone_word(m, words, n.fly + 3u);
-    n.depth[1] = n.next[1] = 0u;
-    if (rng_depth_is_end(n.depth[0]) || rng_depth_is_end(n.next[0]))
-        n = lone_look_far(l, *m, drawn);
+    n.collide = n.fly + (rng_depth_is_end(n.next[0]) ? 3 : 2);
+    n.next[1] = n.collide - n.fly > 2 ? lone_word(m, words, n.fly + 1) : 0u;
+    n.choice = lone_word(m, words, n.collide - 1);
     return n;
 }
 

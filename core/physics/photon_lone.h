@@ -20,9 +20,11 @@ enum { LONE_LEAVES = PATH_ENDED + 1, LONE_ENTERS, LONE_ESCAPES };
 /* What is so of a photon: no roulette is due; its weight has changed, since the
  * flight began; the flight begins inside, whatever the rounding, or behind the
  * first root of the container, or behind the second; flights are laid, as
- * photon_state has it; this is the first one of a light's photon. */
+ * photon_state has it; this is the first one of a light's photon; its end has
+ * been sought; the depth to the next tentative collision has been drawn. */
 enum { LONE_LASTS = 1, LONE_CHANGED = 2, LONE_SURE = 4, LONE_BEHIND_FIRST = 8,
        LONE_BEHIND_LAST = 16, LONE_STORED = 32, LONE_ARRIVES = 64,
+       LONE_SOUGHT = 128, LONE_DRAWN = 256,
        LONE_BEHIND = LONE_BEHIND_FIRST | LONE_BEHIND_LAST };
 
 /* What each flight asks for. */
@@ -31,38 +33,40 @@ typedef struct {
     rgb lays;               /* beta over r_u, as it is                     */
     int32_t marks;
     float laid;             /* where the flight begins                     */
-    float t;                /* how far it is                               */
-    float tau;              /* depth to the next tentative collision, if
-                               that is drawn; else < 0                     */
-    float end;              /* of the flight, if it has been sought; < 0   */
-    int32_t ends;           /* what is there                               */
-    uint32_t events;
     lone_stream numbers;
 } lone_photon;
 
-/* What few flights do. */
+/* What few flights do, or seldom. */
 typedef struct {
     rgb beta;               /* without MAY_TINTS its channels are alike    */
     float r_u;              /* of each channel                             */
     float power;            /* beta over r_u, mean over the channels, as it
                                was when the flight began                   */
-    rgb lays;               /* as lone_photon's                            */
-    int32_t lasts;          /* LONE_LASTS                                  */
     int32_t light;          /* whose first flight this is, and what        */
     float nominal;          /* photon_state has of that                    */
     vec3 from;
-} lone_weight;
+    uint32_t events;
+    uint32_t path[2];       /* of its numbers                              */
+    float t, tau;           /* with LONE_DRAWN: how far it is, the depth   */
+    float end;              /* with LONE_SOUGHT: of the flight             */
+    int32_t ends;           /* what is there                               */
+} lone_rest;
 
-/* What is counted of each flight. */
+/* Of what the books tell. */
+#define LONE_BOOKS(X) X(units) X(media) X(roulette) X(dropped) X(escaped)
+
+/* What is counted. */
 typedef struct {
-    track_count rays, lookups, events;
+    track_count rays, lookups, events, clipped;
+#define X(name) photon_sum name;
+    LONE_BOOKS(X)
+#undef X
 } lone_counts;
 
 /* How a flight has ended. */
 typedef struct {
     float t;
     int32_t event;          /* PATH_* or LONE_*                            */
-    uint32_t turn[2];       /* numbers for where it is scattered to        */
 } lone_end;
 
 /* ---- what a photon carries --------------------------------------------- */
@@ -72,13 +76,13 @@ HD rgb lone_beta(rgb beta)
     return scene_may(MAY_TINTS) ? beta : rgb_gray(beta.r);
 }
 
-HD float lone_power(const lone_weight *w)
+HD float lone_power(const lone_rest *w)
 {
     return rgb_mean(lone_beta(w->beta)) / rgb_mean(rgb_gray(w->r_u));
 }
 
 /* What roulette goes by. */
-HD float lone_throughput(const lone_weight *w)
+HD float lone_throughput(const lone_rest *w)
 {
     return rgb_size(lone_beta(w->beta)) / rgb_mean(rgb_gray(w->r_u));
 }
@@ -88,28 +92,34 @@ HD void lone_mark(lone_photon *p, int32_t marks, bool on)
     p->marks = on ? p->marks | marks : p->marks & ~marks;
 }
 
-HD void lone_set_lays(lone_weight *w)
+HD rgb lone_lays_of(const lone_rest *w)
 {
-    w->lays = rgb_scale(lone_beta(w->beta), 1.0f / rgb_mean(rgb_gray(w->r_u)));
+    return rgb_scale(lone_beta(w->beta), 1.0f / rgb_mean(rgb_gray(w->r_u)));
 }
 
-/* What follows from the weights, which few events change. */
-HD void lone_weigh(lone_weight *w)
+/* What photons take over of the weight. */
+typedef struct {
+    rgb lays;
+    int32_t lasts;
+} lone_carries;
+
+HD_APART lone_carries lone_carries_of(const lone_rest *w)
 {
-    w->power = lone_power(w);
-    w->lasts = lone_throughput(w) * PATH_KEEPS >= 1.0f ? LONE_LASTS : 0;
-    lone_set_lays(w);
+    lone_carries out;
+    out.lays = lone_lays_of(w);
+    out.lasts = lone_throughput(w) * PATH_KEEPS >= 1.0f ? LONE_LASTS : 0;
+    return out;
 }
 
-/* Takes over what the weights are now. */
-HD void lone_renew(lone_photon *p, const lone_weight *w)
+HD void lone_renew(lone_photon *p, const lone_rest *w)
 {
-    p->lays = lone_beta(w->lays);
-    p->marks = (p->marks & ~(LONE_LASTS | LONE_CHANGED)) | w->lasts;
+    lone_carries now = lone_carries_of(w);
+    p->lays = now.lays;
+    p->marks = (p->marks & ~(LONE_CHANGED | LONE_LASTS)) | now.lasts;
 }
 
 /* As photon_power has it. */
-HD double lone_told(const lone_weight *w)
+HD double lone_told(const lone_rest *w)
 {
     double power = (double)w->power;
     return w->light >= 0 ? power * (double)w->nominal : power;
@@ -139,14 +149,13 @@ HD bool lone_is_deep(const lone_scene *l, vec3 p)
 /* A flight begins at `laid`. */
 HD void lone_take_off(lone_photon *p, track_count *rays)
 {
-    p->t = p->laid;
-    p->tau = p->end = -1.0f;
+    lone_mark(p, LONE_SOUGHT | LONE_DRAWN, false);
     (*rays)++;
 }
 
 /* What is left of a photon that came into the container. */
 HD void lone_from(const lone_scene *l, const photon_state *from,
-                  lone_photon *p, lone_weight *w)
+                  lone_photon *p, lone_rest *w)
 {
     const path_state *a = &from->path;
     bool entered = a->after.shape >= 0;
@@ -165,13 +174,14 @@ HD void lone_from(const lone_scene *l, const photon_state *from,
     w->light = from->light;
     w->nominal = from->nominal;
     w->from = from->from;
-    lone_weigh(w);
+    w->power = lone_power(w);
     lone_renew(p, w);
+    w->events = from->events;
+    w->path[0] = a->random.counter[0];
+    w->path[1] = a->random.counter[1];
+    w->t = w->tau = w->end = 0.0f;
+    w->ends = LONE_ESCAPES;
     p->laid = a->after.t;
-    p->ends = LONE_ESCAPES;
-    p->events = from->events;
-    p->numbers.path[0] = a->random.counter[0];
-    p->numbers.path[1] = a->random.counter[1];
     lone_set_random(&p->numbers, &a->random);
 }
 
@@ -238,7 +248,7 @@ HD bool lone_comes(const flat_scene *s, const lone_scene *l, photon_state *g,
 /* A photon from its birth to the container; false: it has ended. */
 HD bool lone_begin(const flat_scene *s, const lone_scene *l,
                    const photon_job *job, uint64_t photon, lone_photon *p,
-                   lone_weight *w, photon_counters *c)
+                   lone_rest *w, photon_counters *c)
 {
     photon_state g;
     if (!photon_begin(s, job, photon, &g, c) || !lone_comes(s, l, &g, c))
@@ -253,12 +263,14 @@ HD bool lone_begin(const flat_scene *s, const lone_scene *l,
 /* Seeks the end of the flight, as bvh_nearest does: the first root behind the
  * one at which it began. Where rounding has put its beginning behind all of
  * them, it meets no medium. */
-HD void lone_seek(const flat_scene *s, const lone_scene *l, lone_photon *p)
+HD void lone_seek(const flat_scene *s, const lone_scene *l, lone_photon *p,
+                  lone_rest *w)
 {
     float root[SHAPE_MAX_ROOTS];
     bool meets = lone_roots(l, p->o, p->d, root);
-    p->end = s->far;
-    p->ends = LONE_ESCAPES;
+    p->marks |= LONE_SOUGHT;
+    w->end = s->far;
+    w->ends = LONE_ESCAPES;
     for (int i = 1; i >= 0; i--) {
         if (!meets || !(root[i] < s->far))
             continue;
@@ -267,97 +279,96 @@ HD void lone_seek(const flat_scene *s, const lone_scene *l, lone_photon *p)
                        (p->marks & LONE_BEHIND_FIRST));
         if (!behind)
             continue;
-        p->end = root[i];
-        p->ends = i == 1 ? LONE_LEAVES : LONE_ENTERS;
+        w->end = root[i];
+        w->ends = i == 1 ? LONE_LEAVES : LONE_ENTERS;
     }
 }
 
 /* The flight comes to the end that was sought. */
-HD int lone_passes(const lone_photon *p, lone_end *f)
+HD int lone_passes(const lone_rest *w, lone_end *f)
 {
-    f->t = p->end;
-    f->event = p->ends;
+    f->t = w->end;
+    f->event = w->ends;
     return LONE_LAYS;
 }
 
 /* What a collision changes weights by. */
-HD void lone_scale(lone_weight *w, float beta, float r_u)
+HD void lone_scale(lone_photon *p, lone_rest *w, float beta, float r_u)
 {
     w->beta = rgb_scale(lone_beta(w->beta), beta);
     w->r_u *= r_u;
-    lone_set_lays(w);
+    p->marks |= LONE_CHANGED;
 }
 
 /* A tentative collision at t: the event, or on. What is laid of a flight is not
  * changed by its end. */
-HD int lone_collide(const lone_scene *l, lone_photon *p, lone_weight *w,
+HD int lone_collide(const lone_scene *l, lone_photon *p, lone_rest *w,
                     const lone_numbers *n, float t, lone_end *f)
 {
     float x = rng_fine_of(n->choice) * l->driver;
     bool scatters = x < l->sigma_s;
+    p->numbers.next += (uint32_t)(n->collide + (scatters ? 2 : 0));
     f->t = t;
     f->event = scatters ? PATH_SCATTERED : PATH_ENDED;
-    f->turn[0] = n->turn[0];
-    f->turn[1] = n->turn[1];
-    if (scatters && l->ratio != 1.0f) {
-        lone_scale(w, l->ratio, l->ratio);
-        p->marks |= LONE_CHANGED;
-    }
+    if (scatters && l->ratio != 1.0f)
+        lone_scale(p, w, l->ratio, l->ratio);
     if (!l->nulls || scatters || x - l->sigma_s < l->sigma_a)
         return LONE_LAYS;
-    lone_scale(w, l->null_beta, l->null_r);
-    p->marks |= LONE_CHANGED;
-    p->lays = lone_beta(w->lays);
-    p->t = t;
-    p->tau = rng_depth_of(n->next[0], n->next[1]);
+    lone_scale(p, w, l->null_beta, l->null_r);
+    p->lays = lone_lays_of(w);
+    p->marks |= LONE_DRAWN;
+    w->t = t;
+    w->tau = rng_depth_of(n->next[0], n->next[1]);
     return LONE_FLIES;
 }
 
 /* On to the next tentative collision, and through it. Where the flight may end
  * before, nothing is taken until its end is sought. */
-HD int lone_fly(const lone_scene *l, lone_photon *p, lone_weight *w,
+HD int lone_fly(const lone_scene *l, lone_photon *p, lone_rest *w,
                 const uint32_t *words, lone_end *f, lone_counts *count)
 {
-    bool sought = p->end >= 0.0f;
-    if (sought && p->ends == LONE_ESCAPES)
-        return lone_passes(p, f);
-    bool drawn = l->nulls && p->tau >= 0.0f;
-    lone_numbers n = lone_look(l, &p->numbers, words, drawn);
-    float tau = drawn ? p->tau : rng_depth_of(n.depth[0], n.depth[1]);
-    float t = p->t + fm_over_known(tau, l->driver, l->per_driver);
-    bool there = sought ? tau < l->driver * (p->end - p->t)
+    bool sought = p->marks & LONE_SOUGHT;
+    if (sought && w->ends == LONE_ESCAPES)
+        return lone_passes(w, f);
+    bool drawn = l->nulls && (p->marks & LONE_DRAWN);
+    lone_numbers n = lone_look(&p->numbers, words, drawn);
+    float from = drawn ? w->t : p->laid;
+    float tau = drawn ? w->tau : rng_depth_of(n.depth[0], n.depth[1]);
+    float t = from + fm_over_known(tau, l->driver, l->per_driver);
+    bool there = sought ? tau < l->driver * (w->end - from)
                         : (p->marks & LONE_SURE) &&
                           lone_is_deep(l, vec3_mad(p->o, t, p->d));
-    if (!there && !sought)
+    if (there) {
+        count->lookups++;
+        return lone_collide(l, p, w, &n, t, f);
+    }
+    if (!sought)
         return LONE_SEEKS;
-    int next = there ? lone_collide(l, p, w, &n, t, f) : lone_passes(p, f);
-    bool turns = f->event == PATH_SCATTERED && next == LONE_LAYS;
-    count->lookups += there;
-    p->numbers.next += !there ? n.fly : turns ? n.collide + 2u : n.collide;
-    return next;
+    p->numbers.next += (uint32_t)n.fly;
+    return lone_passes(w, f);
 }
 
 /* ---- events ------------------------------------------------------------ */
 
 /* After a flight that has changed the weight. */
-HD_APART void lone_change(lone_weight *w, photon_books *books)
+HD_APART void lone_change(lone_rest *w, lone_counts *count)
 {
     double before = lone_told(w);
-    lone_weigh(w);
-    photon_book(&books->media, before - lone_told(w));
+    w->power = lone_power(w);
+    photon_book(&count->media, before - lone_told(w));
 }
 
 /* The end of a light's first flight, o + t d: where the light comes from. */
-HD_APART vec3 lone_arrive(const flat_scene *s, lone_weight *w,
-                          photon_books *books, vec3 o, vec3 d, float t,
+HD_APART vec3 lone_arrive(const flat_scene *s, lone_rest *w,
+                          lone_counts *count, vec3 o, vec3 d, float t,
                           float factor)
 {
     double before = lone_told(w);
     photon_first at = photon_first_at(s, w->light, o, d, w->from, t);
     w->beta = rgb_scale(lone_beta(w->beta), at.law * factor);
     w->light = -1;
-    lone_weigh(w);
-    photon_book(&books->units, (double)w->power - before);
+    w->power = lone_power(w);
+    photon_book(&count->units, (double)w->power - before);
     return at.d;
 }
 
@@ -368,20 +379,20 @@ typedef struct {
 } lone_fate;
 
 HD_APART lone_fate lone_roulette(const lone_scene *l, lone_stream numbers,
-                                 lone_weight *w, photon_books *books)
+                                 lone_rest *w, lone_counts *count)
 {
     lone_fate out;
     float left = lone_throughput(w), q = hd_max(left * PATH_KEEPS, 0.05f);
     float before = w->power;
-    rng r = lone_random(l, &numbers);
+    rng r = lone_random(l, w->path, &numbers);
     out.alive = left > 0.0f && rng_chance(&r, q);
     out.numbers = numbers;
     lone_set_random(&out.numbers, &r);
     if (out.alive) {
         w->beta = rgb_scale(lone_beta(w->beta), 1.0f / q);
-        lone_weigh(w);
+        w->power = lone_power(w);
     }
-    photon_book(&books->roulette,
+    photon_book(&count->roulette,
                 (double)before - (out.alive ? (double)w->power : 0.0));
     return out;
 }
@@ -410,7 +421,7 @@ HD vec3 lone_turn(const flat_medium *m, vec3 d, float u, float v)
 }
 
 HD int lone_scatter(const flat_scene *s, const lone_scene *l, lone_photon *p,
-                    lone_weight *w, const lone_end *f, photon_books *books,
+                    lone_rest *w, const uint32_t *words, const lone_end *f,
                     lone_counts *count)
 {
     const flat_medium *m = &l->medium;
@@ -419,22 +430,23 @@ HD int lone_scatter(const flat_scene *s, const lone_scene *l, lone_photon *p,
     count->events++;
     if (p->marks & LONE_ARRIVES) {
         seen = s->lights[w->light].media_interaction != 0;
-        d = lone_arrive(s, w, books, p->o, d, f->t,
+        d = lone_arrive(s, w, count, p->o, d, f->t,
                         phase_pov_scale(m->phase));
         lone_renew(p, w);
     }
     if (!seen) {
-        photon_book(&books->media, (double)w->power);
+        photon_book(&count->media, (double)w->power);
         return LONE_ENDS;
     }
-    p->d = lone_turn(m, d, rng_float_of(f->turn[0]), rng_float_of(f->turn[1]));
+    p->d = lone_turn(m, d, rng_float_of(lone_word(&p->numbers, words, -2)),
+                     rng_float_of(lone_word(&p->numbers, words, -1)));
     p->o = at;
     p->laid = 0.0f;
     /* A collision at an end that was not sought is deep inside. */
-    bool sure = p->end < 0.0f || lone_is_deep(l, at);
+    bool sure = !(p->marks & LONE_SOUGHT) || lone_is_deep(l, at);
     p->marks = (p->marks & LONE_LASTS) | LONE_STORED | (sure ? LONE_SURE : 0);
     if (!(p->marks & LONE_LASTS)) {
-        lone_fate fate = lone_roulette(l, p->numbers, w, books);
+        lone_fate fate = lone_roulette(l, p->numbers, w, count);
         p->numbers = fate.numbers;
         if (!fate.alive)
             return LONE_ENDS;
@@ -445,48 +457,49 @@ HD int lone_scatter(const flat_scene *s, const lone_scene *l, lone_photon *p,
 }
 
 /* Goes on behind the container's surface. */
-HD int lone_cross(const flat_scene *s, lone_photon *p, const lone_weight *w,
-                  const lone_end *f, photon_books *books, lone_counts *count)
+HD int lone_cross(const flat_scene *s, lone_photon *p, lone_rest *w,
+                  const lone_end *f, lone_counts *count)
 {
     bool leaves = f->event == LONE_LEAVES;
-    p->laid = p->end;
+    p->laid = w->end;
     lone_mark(p, LONE_SURE | LONE_BEHIND, false);
     lone_mark(p, leaves ? LONE_BEHIND_LAST : LONE_BEHIND_FIRST, true);
     lone_take_off(p, &count->rays);
     if (!leaves)
         return LONE_FLIES;
-    p->end = s->far;
-    p->ends = LONE_ESCAPES;
+    p->marks |= LONE_SOUGHT;
+    w->end = s->far;
+    w->ends = LONE_ESCAPES;
     if (p->marks & LONE_STORED)
         return LONE_FLIES;
-    p->events++;
-    photon_book(p->events > PHOTON_EVENTS ? &books->dropped : &books->escaped,
+    w->events++;
+    photon_book(w->events > PHOTON_EVENTS ? &count->dropped : &count->escaped,
                 lone_told(w));
     return LONE_ENDS;
 }
 
 /* What comes after a flight, of which it is known what is laid. */
 HD int lone_land(const flat_scene *s, const lone_scene *l, lone_photon *p,
-                 lone_weight *w, const lone_end *f, photon_books *books,
+                 lone_rest *w, const uint32_t *words, const lone_end *f,
                  lone_counts *count)
 {
     if (p->marks & LONE_CHANGED) {
-        lone_change(w, books);
+        lone_change(w, count);
         lone_renew(p, w);
     }
-    bool dropped = ++p->events > PHOTON_EVENTS;
+    bool dropped = ++w->events > PHOTON_EVENTS;
     if (!dropped && f->event == PATH_SCATTERED)
-        return lone_scatter(s, l, p, w, f, books, count);
+        return lone_scatter(s, l, p, w, words, f, count);
     bool escapes = f->event == LONE_ESCAPES;
     if (dropped || f->event == PATH_ENDED || escapes) {
-        photon_book(dropped ? &books->dropped : escapes ? &books->escaped
-                                                        : &books->media,
+        photon_book(dropped ? &count->dropped : escapes ? &count->escaped
+                                                        : &count->media,
                     lone_told(w));
         return LONE_ENDS;
     }
     if (rgb_is_black(lone_beta(w->beta)))
         return LONE_ENDS;
-    return lone_cross(s, p, w, f, books, count);
+    return lone_cross(s, p, w, f, count);
 }
 
 #endif

@@ -54,12 +54,13 @@ static void run_one(const flat_scene *s, const lone_scene *l,
                     const photon_job *job, uint64_t i, photon_counters *c)
 {
     lone_photon p;
-    lone_weight w;
+    lone_rest w;
     uint32_t words[LONE_WORDS];
     lone_end f;
     lone_line line;
     lone_walk lays;
-    lone_counts n = {0, 0, 0};
+    lone_counts n;
+    memset(&n, 0, sizeof n);
     memset(&p, 0, sizeof p);
     memset(&f, 0, sizeof f);
     int next = lone_begin(s, l, job, i, &p, &w, c) ? LONE_FLIES : LONE_ENDS;
@@ -67,23 +68,27 @@ static void run_one(const flat_scene *s, const lone_scene *l,
         switch (next) {
         case LONE_FLIES:
             while (lone_ready(&p.numbers) < LONE_NEEDS)
-                lone_draw(l, &p.numbers, words);
+                lone_draw(l, w.path, &p.numbers, words);
             next = lone_fly(l, &p, &w, words, &f, &n);
             break;
         case LONE_SEEKS:
-            lone_seek(s, l, &p);
+            lone_seek(s, l, &p, &w);
             next = LONE_FLIES;
             break;
         case LONE_LAYS:
-            if (lone_lays(s, l, &p, &f, &c->tally, &line, &lays))
-                while (lone_lay(s, l, &c->tally, &line, &lays))
+            if (lone_lays(s, l, &p, &f, &line, &lays))
+                while (lone_lay(s, l, c->tally.sum, &n, &line, &lays))
                     ;
             next = LONE_LANDS;
             break;
         default:
-            next = lone_land(s, l, &p, &w, &f, &c->books, &n);
+            next = lone_land(s, l, &p, &w, words, &f, &n);
         }
+#define X(book) c->books.book += n.book;
+    LONE_BOOKS(X)
+#undef X
     c->events += n.events;
+    c->tally.clipped += n.clipped;
     c->track.rays += n.rays;
     c->track.lookups += n.lookups;
 }
