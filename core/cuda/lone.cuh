@@ -6,8 +6,8 @@
 #include "core/cuda/photons.cuh"
 #include "core/physics/lone_lay.h"
 
-/* A photon as it waits in a list. */
-struct lone_born {
+/* A photon as it waits in a list: four words at a time go there. */
+struct HD_ALIGNED(16) lone_born {
     lone_photon photon;
     lone_rest rest;
 };
