@@ -12,361 +12,9 @@
  * march.h's, which has no noise; the path leaves them out there. */
 #ifndef CORE_PHYSICS_PATH_H
 #define CORE_PHYSICS_PATH_H
-#include "core/physics/equiangular.h"
-#include "core/physics/light.h"
-#include "core/physics/path_track.h"
-#include "core/physics/plate.h"
-#include "core/physics/shadow.h"
-#include "core/physics/sky.h"
-#include "core/physics/warp.h"
+#include "core/physics/path_vertex.h"
 
-/* ---- light that reaches a vertex --------------------------------------- */
-
-/* What a vertex makes of light from direction wi. */
-typedef struct {
-    vec3 p, d;              /* d: direction of the ray that came there     */
-    bool on_surface;        /* or in a medium                              */
-    const hit_point *surface;       /* on one                              */
-    const flat_medium *medium;      /* in one                              */
-    const path_event *event;        /* ... where the path found it         */
-} path_vertex;
-
-/* Radiance toward the eye per light C at a surface or per 4 pi C (pi C in
- * physical units) in a medium. A light without shadows makes no highlights. */
-HD rgb path_response(const flat_scene *s, const path_vertex *v, vec3 wi,
-                     bool highlights)
-{
-    const hit_point *h = v->surface;
-    if (v->on_surface && !highlights)
-        return surface_matte(h->material, h->color, h->opacity,
-                             vec3_dot(h->ns, wi));
-    if (v->on_surface)
-        return surface_light(h->material, h->color, h->opacity, h->ns,
-                             vec3_scale(v->d, -1.0f), wi);
-    float p = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
-    return rgb_gray(p * phase_pov_scale(v->medium->phase) *
-                    light_medium_factor(s));
-}
-
-/* Where a ray that leaves the vertex toward wi starts. */
-HD vec3 path_origin(const path_vertex *v, vec3 wi)
-{
-    if (!v->on_surface)
-        return v->p;
-    vec3 n = v->surface->ng;
-    return surface_offset(v->p, vec3_dot(n, wi) < 0.0f ? vec3_scale(n, -1.0f)
-                                                       : n);
-}
-
-HD bool path_faces(const path_vertex *v, vec3 wi)
-{
-    return !v->on_surface || vec3_dot(v->surface->ng, wi) > 0.0f;
-}
-
-HD_APART rgb path_lit_line(const flat_scene *s, container_set *set, vec3 o,
-                           vec3 wi, float distance, line_jitter jitter)
-{
-    return shadow_line(s, set, o, wi, distance, jitter);
-}
-
-/* What passes of the light of a sample. Where a field takes the noise of the
- * rest, a surface's light has none either. */
-HD rgb path_lit(const flat_scene *s, path_state *p, const path_vertex *v,
-                const light_sample *l)
-{
-    const flat_light *light = &s->lights[l->light];
-    if (!light->shadows)
-        return l->color;
-    container_set set = p->inside;
-    bool atmosphere = s->media_multiple || light->media_attenuation != 0;
-    vec3 o = path_origin(v, l->shadow_wi);
-    if (scene_may(MAY_FIELD) && s->field.numbers > 0 && v->on_surface &&
-        atmosphere) {
-        p->count->shadow_rays++;
-        return rgb_mul(l->color, path_lit_line(s, &set, o, l->shadow_wi,
-            l->shadow_distance, line_jitter_draw(s, &p->random)));
-    }
-    rgb left = shadow_transmittance(s, &set, atmosphere, o, l->shadow_wi,
-                                    l->shadow_distance, &p->random, p->count);
-    return rgb_mul(l->color, left);
-}
-
-HD equiangular path_angles(const path_state *p, const flat_light *l)
-{
-    return equiangular_make(p->o, p->d, p->stretch.first, p->stretch.last,
-                            l->position, l->blunt);
-}
-
-/* Share of a light at the distance t of the segment that is left to
- * path_along: by the density of its choice and a coarse one of flights that
- * end there, with scattering sigma_s. Any share would do, if both agree. */
-HD float path_along_share(const path_state *p, const flat_light *l, float t,
-                          float sigma_s)
-{
-    const path_stretch *look = &p->stretch;
-    if (!scene_may(MAY_LAMPS) || !look->on || !l->local ||
-        !(t > look->first && t < look->last))
-        return 0.0f;
-    equiangular e = path_angles(p, l);
-    float flight = p->boost * sigma_s *
-                   fm_exp(-look->stop * (t - look->first));
-    return 1.0f / (1.0f + flight / equiangular_pdf(&e, t));
-}
-
-HD void path_light_sample(const flat_scene *s, path_state *p,
-                          const path_vertex *v, const light_sample *l)
-{
-    const flat_light *light = &s->lights[l->light];
-    if (!path_faces(v, l->wi) ||
-        (!v->on_surface && !light->media_interaction))
-        return;
-    rgb value = path_response(s, v, l->wi, light->shadows);
-    if (!v->on_surface)
-        value = rgb_scale(value, 1.0f -
-            path_along_share(p, light, v->event->t, v->event->sigma_s));
-    if (rgb_is_black(value))
-        return;
-    value = rgb_mul(value, path_lit(s, p, v, l));
-    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / l->probability));
-}
-
-/* Next-event estimation to one of the lights; on surfaces that the eye sees,
- * to all. */
-HD void path_light(const flat_scene *s, path_state *p, const path_vertex *v)
-{
-    int i = 0, end = (int)s->lights_count;
-    light_sample l;
-    l.probability = 1.0f;
-    if (end > 0 && !(v->on_surface && p->straight)) {
-        i = light_find(s, rng_float(&p->random), &l.probability);
-        end = l.probability > 0.0f ? i + 1 : i;
-    }
-    for (; i < end; i++)
-        if (light_reach(s, i, v->p, &p->random, &l))
-            path_light_sample(s, p, v, &l);
-}
-
-/* What the media at distance t of the segment scatter toward the eye of light
- * from wi, per light C; their scattering in *sigma_s. */
-HD rgb path_scattered(const flat_scene *s, const path_state *p, float t,
-                      vec3 wi, float *sigma_s)
-{
-    vec3 x = vec3_mad(p->o, t, p->d);
-    rgb sum = rgb_gray(0.0f);
-    *sigma_s = 0.0f;
-    for (int i = -1; i < container_count(&p->inside); i++) {
-        int32_t interior = container_interior(s, &p->inside, i);
-        for (int k = 0; interior >= 0 && k < s->interiors[interior].count;
-             k++) {
-            const flat_medium *m = &s->media[
-                s->interior_media[s->interiors[interior].first + k]];
-            field_point at = field_point_make(s, m->lead, x);
-            rgb sigma = rgb_mul(m->sigma_s, medium_density(s, m, &at));
-            float phase = phase_eval_between(m->phase, m->g, p->d, wi) *
-                          phase_pov_scale(m->phase);
-            *sigma_s += rgb_mean(sigma);
-            sum = rgb_add(sum, rgb_scale(sigma, phase));
-        }
-    }
-    return rgb_scale(sum, light_medium_factor(s));
-}
-
-/* Light of a near lamp that the segment's media scatter, at a point chosen by
- * the lamp and not by a flight. */
-HD void path_along(const flat_scene *s, path_state *p)
-{
-    float probability, sigma_s;
-    int i = light_find(s, rng_float(&p->random), &probability);
-    const flat_light *light = &s->lights[i];
-    if (!light->local || !light->media_interaction || !(probability > 0.0f))
-        return;
-    equiangular e = path_angles(p, light);
-    float first, second;
-    path_pair_floats(p, PATH_PAIR_FLIGHT, &first, &second);
-    float t = equiangular_sample(&e, second);
-    path_vertex v;
-    light_sample l;
-    v.p = vec3_mad(p->o, t, p->d);
-    v.on_surface = false;
-    if (!light_reach(s, i, v.p, &p->random, &l))
-        return;
-    rgb value = path_scattered(s, p, t, l.wi, &sigma_s);
-    float share = path_along_share(p, light, t, sigma_s);
-    value = rgb_scale(value, share / (equiangular_pdf(&e, t) * probability));
-    if (rgb_is_black(value))
-        return;
-    value = rgb_mul(value, track_transmittance(s, &p->inside, true, p->o, p->d,
-        p->after.t, t, &p->random, p->count));
-    if (rgb_is_black(value))
-        return;
-    value = rgb_mul(value, path_lit(s, p, &v, &l));
-    path_add(p, rgb_mul(p->beta, value));
-}
-
-/* Radiance per incident radiance and solid angle, cosine included, of light
- * that bounces at the vertex; *pdf is the density of directions in proportion
- * to it. */
-HD rgb path_bounce_own(const path_vertex *v, vec3 wi, float *pdf)
-{
-    if (v->on_surface) {
-        float cosine = vec3_dot(v->surface->ns, wi);
-        *pdf = hd_max(cosine, 0.0f) * WARP_INV_PI;
-        return rgb_scale(surface_matte(v->surface->material,
-                                       v->surface->color,
-                                       v->surface->opacity, cosine),
-                         WARP_INV_PI);
-    }
-    *pdf = phase_eval_between(v->medium->phase, v->medium->g, v->d, wi);
-    return rgb_gray(*pdf);
-}
-
-/* The same; *pdf is path_bounce's density. */
-HD rgb path_bounce_eval(const path_state *p, const path_vertex *v, vec3 wi,
-                        float *pdf)
-{
-    rgb value = path_bounce_own(v, wi, pdf);
-    if (scene_may(MAY_LAMPS))
-        *pdf = aim_mixed(&p->aim, wi, *pdf);
-    return value;
-}
-
-/* Where a path goes on from a vertex, a lamp that is near chooses the more of
- * its directions the more is scattered there from the lamp's. */
-HD void path_aim(const flat_scene *s, path_state *p, const path_vertex *v)
-{
-    const float most = 0.5f;
-    float probability, pdf;
-    if (!path_has_lamps(s))
-        return;
-    int i = light_find(s, rng_float(&p->random), &probability);
-    vec3 to = vec3_sub(s->lights[i].position, v->p);
-    float distance = vec3_length(to);
-    if (!s->lights[i].local || !(probability > 0.0f) || !(distance > 0.0f))
-        return;
-    p->aim.to = vec3_scale(to, 1.0f / distance);
-    if (!path_faces(v, p->aim.to))
-        return;
-    path_bounce_own(v, p->aim.to, &pdf);
-    p->aim.share = most * hd_min(4.0f * FM_PI * pdf, 1.0f);
-}
-
-/* Next-event estimation to the sky. Bounces that find it weigh by the rest. */
-HD void path_sky(const flat_scene *s, path_state *p, const path_vertex *v)
-{
-    if (!sky_is_light(s))
-        return;
-    float chosen, pdf;
-    vec3 wi = sky_choose(s, &p->random, &chosen);
-    if (!(chosen > 0.0f) || !path_faces(v, wi))
-        return;
-    rgb value = rgb_mul(path_bounce_eval(p, v, wi, &pdf), sky_radiance(s, wi));
-    if (rgb_is_black(value))
-        return;
-    container_set set = p->inside;
-    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi,
-                                    s->far, &p->random, p->count);
-    value = rgb_mul(value, left);
-    path_add(p, rgb_scale(rgb_mul(p->beta, value), 1.0f / (chosen + pdf)));
-}
-
-/* What a lamp has of the directions in which a path goes on. */
-HD float path_aim_share(const path_state *p)
-{
-    return scene_may(MAY_LAMPS) ? p->aim.share : 0.0f;
-}
-
-/* A direction in proportion to how a diffuse surface or a medium scatters, or
- * as a lamp has it; *own: a medium's density, where no lamp has a share. */
-HD vec3 path_bounce_choose(const path_vertex *v, path_state *p, float *own)
-{
-    float u, w, share = path_aim_share(p);
-    path_pair_floats(p, PATH_PAIR_TURN, &u, &w);
-    if (u < share)
-        return aim_sample(&p->aim, u / share, w);
-    u = (u - share) / (1.0f - share);
-    if (!v->on_surface)
-        return phase_sample(v->medium->phase, v->medium->g, v->d, u, w, own);
-    return warp_frame_to_world(warp_frame(v->surface->ns),
-                               warp_cosine_hemisphere(u, w));
-}
-
-/* What a path that went on from the vertex would find of the sky, where none
- * does. */
-HD void path_sky_rest(const flat_scene *s, path_state *p,
-                      const path_vertex *v)
-{
-    float pdf;
-    if (!s->environment)
-        return;
-    vec3 wi = path_bounce_choose(v, p, &pdf);
-    rgb value = rgb_mul(path_bounce_eval(p, v, wi, &pdf), sky_radiance(s, wi));
-    if (!(pdf > 0.0f) || !path_faces(v, wi) || rgb_is_black(value))
-        return;
-    container_set set = p->inside;
-    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi,
-                                    s->far, &p->random, p->count);
-    if (sky_is_light(s))
-        pdf += sky_pdf(s, wi);
-    path_add(p, rgb_scale(rgb_mul(p->beta, rgb_mul(value, left)), 1.0f / pdf));
-}
-
-/* The sky at the end of a path. */
-HD void path_escape(const flat_scene *s, path_state *p)
-{
-    if (p->straight || !s->environment)
-        return;
-    rgb value = sky_radiance(s, p->d);
-    if (p->p_dir > 0.0f && sky_is_light(s))
-        value = rgb_scale(value, 1.0f / (1.0f + sky_pdf(s, p->d) / p->p_dir));
-    path_add(p, rgb_mul(p->beta, value));
-}
-
-HD bool path_medium_at(const flat_scene *s, const container_set *set,
-                       int medium)
-{
-    for (int i = -1; i < container_count(set); i++) {
-        int32_t interior = container_interior(s, set, i);
-        if (interior < 0)
-            continue;
-        const flat_interior *in = &s->interiors[interior];
-        for (int k = 0; k < in->count; k++)
-            if (s->interior_media[in->first + k] == medium)
-                return true;
-    }
-    return false;
-}
-
-/* Next-event estimation to the emitting voxels of media. */
-HD void path_glow(const flat_scene *s, path_state *p, const path_vertex *v)
-{
-    if (!scene_may(MAY_EMISSION) || s->glows_count == 0)
-        return;
-    glow_sample g = glow_choose(s, &p->random);
-    vec3 to = vec3_sub(g.p, v->p);
-    float t = vec3_length(to), pdf;
-    if (!(t > 0.0f) || !(g.pdf > 0.0f))
-        return;
-    vec3 wi = vec3_scale(to, 1.0f / t);
-    if (!path_faces(v, wi))
-        return;
-    rgb value = path_bounce_eval(p, v, wi, &pdf);
-    if (rgb_is_black(value))
-        return;
-    const flat_medium *m = &s->media[g.medium];
-    field_point x = field_point_make(s, m->lead, g.p);
-    rgb q = medium_source(s, m, &x, medium_density(s, m, &x));
-    if (rgb_is_black(q))
-        return;
-    container_set set = p->inside;
-    rgb left = shadow_transmittance(s, &set, true, path_origin(v, wi), wi, t,
-                                    &p->random, p->count);
-    if (!path_medium_at(s, &set, g.medium))
-        return;
-    value = rgb_mul(rgb_mul(value, q), left);
-    /* 1 / (pdf t^2) times glow_ray_share's complement. */
-    float weight = 1.0f / (g.pdf * t * t + pdf * m->kappa);
-    path_add(p, rgb_scale(rgb_mul(p->beta, value), weight));
-}
+/* ---- media between two surfaces ---------------------------------------- */
 
 /* Whether the media around the ray do nothing but emit. */
 HD bool path_passes_media(const flat_scene *s, const container_set *set)
@@ -500,27 +148,68 @@ HD bool path_bounce(const flat_scene *s, path_state *p, const path_vertex *v)
     return path_goes_on(s, p);
 }
 
-/* Light that comes to a vertex, and the way on from there; false: there is
- * none. */
-HD bool path_visit(const flat_scene *s, path_state *p, const path_vertex *v)
+/* What is next at a vertex. */
+enum { VISIT_BEGINS, VISIT_LIGHTS, VISIT_GLOW, VISIT_SKY, VISIT_REST,
+       VISIT_BOUNCES, VISIT_ENDS };
+
+typedef struct {
+    int32_t next;
+    path_lights lights;
+} path_visit;
+
+/* What a field holds of the light at a vertex; true: all but the lights'. */
+HD bool path_visit_field(const flat_scene *s, path_state *p,
+                         const path_vertex *v)
+{
+    if (v->on_surface || s->field.numbers == 0 ||
+        (!p->straight && s->field.straight))
+        return false;
+    path_field(s, p, v);
+    return true;
+}
+
+/* The next connection from a vertex; false: there is none more. */
+HD bool path_connects(const flat_scene *s, path_state *p, const path_vertex *v,
+                      path_visit *visit, path_connection *c)
 {
     bool goes_on = v->on_surface ? s->surfaces_indirect : s->media_multiple;
-    if (v->on_surface || !s->field.single)
-        path_light(s, p, v);
-    if (!v->on_surface && s->field.numbers > 0 &&
-        (p->straight || !s->field.straight)) {
-        path_field(s, p, v);
+    if (visit->next == VISIT_BEGINS) {
+        visit->next = VISIT_LIGHTS;
+        visit->lights = path_lights_choose(s, p, v);
+    }
+    if (visit->next == VISIT_LIGHTS) {
+        if (path_light_next(s, p, v, &visit->lights, c))
+            return true;
+        visit->next = path_visit_field(s, p, v) ? VISIT_ENDS : VISIT_GLOW;
+    }
+    if (visit->next == VISIT_GLOW) {
+        visit->next = VISIT_SKY;
+        if (goes_on)
+            path_aim(s, p, v);
+        if (goes_on && path_glow(s, p, v, c))
+            return true;
+    }
+    if (visit->next == VISIT_SKY) {
+        visit->next = goes_on ? VISIT_BOUNCES : VISIT_REST;
+        if (path_sky(s, p, v, c))
+            return true;
+    }
+    if (visit->next != VISIT_REST)
         return false;
-    }
-    if (goes_on) {
-        path_aim(s, p, v);
-        path_glow(s, p, v);
-    }
-    path_sky(s, p, v);
-    if (goes_on)
-        return path_bounce(s, p, v);
-    path_sky_rest(s, p, v);
-    return false;
+    visit->next = VISIT_ENDS;
+    return path_sky_rest(s, p, v, c);
+}
+
+/* Light that comes to a vertex, and the way on from there; false: there is
+ * none. */
+HD bool path_stay(const flat_scene *s, path_state *p, const path_vertex *v)
+{
+    path_visit visit;
+    path_connection c;
+    visit.next = VISIT_BEGINS;
+    while (path_connects(s, p, v, &visit, &c))
+        path_follow(s, p, &c);
+    return visit.next == VISIT_BOUNCES && path_bounce(s, p, v);
 }
 
 /* Chooses between passing straight through and the surface's own light in
@@ -624,7 +313,7 @@ HD bool path_land(const flat_scene *s, path_state *p, plate_view *plate,
         v.p = vec3_mad(p->o, to->event.t, p->d);
         v.medium = &s->media[to->event.medium];
         v.event = &to->event;
-        return path_visit(s, p, &v);
+        return path_stay(s, p, &v);
     }
     if (event == PATH_THROUGH)
         event = path_arrive(s, p, plate, to, &at);
@@ -635,7 +324,7 @@ HD bool path_land(const flat_scene *s, path_state *p, plate_view *plate,
     v.surface = &at;
     path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,
                                               at.opacity)));
-    return path_visit(s, p, &v);
+    return path_stay(s, p, &v);
 }
 
 /* One segment without a plate: to the next event or surface. False: the path

@@ -393,6 +393,7 @@ HD rgb photon_sent(const flat_scene *s, photon_state *p, const bvh_ray *r,
         return glow;
     path_state look;
     path_vertex v;
+    path_connection c;
     /* Seen from where the light goes. */
     x.ng = vec3_scale(x.ng, -1.0f);
     x.ns = vec3_scale(x.ns, -1.0f);
@@ -405,8 +406,10 @@ HD rgb photon_sent(const flat_scene *s, photon_state *p, const bvh_ray *r,
     path_begin(&look, v.p, v.d, inside, false, p->path.random);
     look.count = p->path.count;
     path_light(s, &look, &v);
-    path_sky(s, &look, &v);
-    path_sky_rest(s, &look, &v);
+    if (path_sky(s, &look, &v, &c))
+        path_follow(s, &look, &c);
+    if (path_sky_rest(s, &look, &v, &c))
+        path_follow(s, &look, &c);
     p->path.random = look.random;
     return rgb_add(glow, look.radiance);
 }
