@@ -32,25 +32,39 @@ HD bool path_passes_media(const flat_scene *s, const container_set *set)
     return true;
 }
 
-HD int path_media(const flat_scene *s, path_state *p, float t1,
-                  path_event *event)
+/* Begins the line of a flight; false: no flight is to be drawn, and *event is
+ * how the segment ends. */
+HD bool path_sets_out(const flat_scene *s, path_state *p, float t1,
+                      track_line *l, int *event)
 {
-    media_walk w;
+    media_walk *w = &l->walk;
+    *event = PATH_THROUGH;
     /* On the straight line from the eye emission is march.h's. */
     if (p->straight && path_passes_media(s, &p->inside))
-        return PATH_THROUGH;
-    walk_begin(s, &w, &p->inside, true, p->o, p->d, p->after.t, t1);
-    p->count->overflow += w.overflow;
-    if (w.count == 0)
-        return PATH_THROUGH;
-    if (scene_may(MAY_CLEAR) && !path_walk_scatters(s, &w))
-        return path_line(s, p, &w, p->after.t, t1);
+        return false;
+    walk_begin(s, w, &p->inside, true, p->o, p->d, p->after.t, t1);
+    p->count->overflow += w->overflow;
+    if (w->count == 0)
+        return false;
+    if (scene_may(MAY_CLEAR) && !path_walk_scatters(s, w)) {
+        *event = path_line(s, p, w, p->after.t, t1);
+        return false;
+    }
     p->boost = 1.0f;
     if (p->straight || path_has_lamps(s))
         path_look(s, p, t1);
     if (scene_may(MAY_LAMPS) && p->stretch.on && !s->field.single)
         path_along(s, p);
-    return path_track(s, p, &w, event);
+    return true;
+}
+
+HD int path_media(const flat_scene *s, path_state *p, float t1,
+                  path_event *to)
+{
+    track_line l;
+    int event;
+    return path_sets_out(s, p, t1, &l, &event) ? path_track(s, p, &l, to)
+                                               : event;
 }
 
 /* ---- vertices ---------------------------------------------------------- */

@@ -113,11 +113,10 @@ typedef struct {
     rgb all_s, all_a, all_t;    /* sums; all_t is what attenuates          */
 } path_point;
 
-HD void path_point_at(const flat_scene *s, path_state *p,
-                      const media_walk *w, float t, rgb majorant,
+HD void path_point_of(const flat_scene *s, path_state *p, const media_walk *w,
+                      float t, const track_point *x, rgb majorant,
                       path_point *out)
 {
-    vec3 x = vec3_mad(p->o, t, p->d);
     rgb source = rgb_gray(0.0f);
     out->all_s = out->all_a = out->all_t = source;
     out->sigma_s[0] = source;
@@ -127,8 +126,7 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         out->sigma_s[part_place(i)] = rgb_gray(0.0f);
         if (bound->density == 0.0f && bound->rate == 0.0f)
             continue;
-        field_point at = lattice_point(s, walk_part(w, i), x, t);
-        rgb density = may_gray(medium_density(s, m, &at));
+        rgb density = may_gray(x->density[part_place(i)]);
         p->count->lookups++;
         out->sigma_s[part_place(i)] = rgb_mul(may_gray(m->sigma_s), density);
         out->all_s = rgb_add(out->all_s, out->sigma_s[part_place(i)]);
@@ -139,10 +137,11 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         if (!scene_may(MAY_EMISSION) || bound->rate == 0.0f || p->straight ||
             m->uniform)
             continue;
-        rgb q = medium_source(s, m, &at, density);
+        const field_point *at = &x->at[part_place(i)];
+        rgb q = medium_source(s, m, at, density);
         if (rgb_is_black(q))
             continue;
-        float share = glow_ray_share(s, walk_part(w, i)->medium, x, t,
+        float share = glow_ray_share(s, walk_part(w, i)->medium, at->p, t,
                                      p->p_dir);
         source = rgb_add(source, rgb_scale(q, share));
     }
@@ -150,6 +149,15 @@ HD void path_point_at(const flat_scene *s, path_state *p,
         p->radiance = rgb_add(p->radiance,
             rgb_scale(rgb_mul(p->beta, source),
                       1.0f / rgb_mean(rgb_mul(p->r_u, majorant))));
+}
+
+HD void path_point_at(const flat_scene *s, path_state *p,
+                      const media_walk *w, float t, rgb majorant,
+                      path_point *out)
+{
+    track_point x;
+    track_look(s, w, vec3_mad(p->o, t, p->d), t, &x);
+    path_point_of(s, p, w, t, &x, majorant, out);
 }
 
 /* Emission is sampled at tentative collisions, so where it is wanted they are
@@ -291,45 +299,71 @@ HD float path_room(const path_state *p)
     return p->boost > 1.0f ? 2.0f * p->boost : 1.0f;
 }
 
-/* Delta tracking to t1. On PATH_SCATTERED, *out tells where. */
-HD int path_track(const flat_scene *s, path_state *p, media_walk *w,
+/* A flight: what is asked along its line. */
+typedef struct {
+    rgb majorant;           /* of the current piece                        */
+    rgb source;             /* what homogeneous media emit there           */
+} path_flight;
+
+HD void path_enter(const flat_scene *s, const path_state *p, track_line *l,
+                   path_flight *f)
+{
+    f->majorant = rgb_scale(path_majorant(s, &l->walk, !p->straight),
+                            path_room(p));
+    l->majorant = rgb_get(f->majorant, p->driver);
+    l->t = l->walk.t;
+}
+
+HD void path_depart(const flat_scene *s, path_state *p, track_line *l,
+                    path_flight *f)
+{
+    l->tau = path_depth(p);
+    f->source = path_uniform_source(s, p, &l->walk);
+    path_enter(s, p, l, f);
+}
+
+/* What happens at a tentative collision where media hold x. */
+HD int path_meet(const flat_scene *s, path_state *p, const track_line *l,
+                 const path_flight *f, const track_point *x, path_event *out)
+{
+    path_point at;
+    int which;
+    path_point_of(s, p, &l->walk, l->t, x, f->majorant, &at);
+    int event = path_collide(p, &l->walk, &at, f->majorant, &which);
+    out->t = l->t;
+    if (event == PATH_SCATTERED) {
+        out->medium = walk_part(&l->walk, which)->medium;
+        out->sigma_s = rgb_mean(at.all_s);
+        p->count->collisions++;
+    }
+    return event;
+}
+
+/* Delta tracking along the line's walk. On PATH_SCATTERED, *out tells where. */
+HD int path_track(const flat_scene *s, path_state *p, track_line *l,
                   path_event *out)
 {
-    float tau = path_depth(p);
-    rgb source = path_uniform_source(s, p, w);
-    do {
-        rgb majorant = rgb_scale(path_majorant(s, w, !p->straight),
-                                 path_room(p));
-        float driver = rgb_get(majorant, p->driver);
-        float t = w->t;
-        for (;;) {
-            float left = driver * (w->t_end - t);
-            if (!(tau < left)) {
-                path_gather(p, source, majorant, w->t_end - t);
-                path_fly(p, majorant, w->t_end - t);
-                tau -= left;
-                break;
-            }
-            path_gather(p, source, majorant, tau / driver);
-            path_fly(p, majorant, tau / driver);
-            t += tau / driver;
-            tau = rng_optical_depth(&p->random);
-            path_point at;
-            int which;
-            path_point_at(s, p, w, t, majorant, &at);
-            int event = path_collide(p, w, &at, majorant, &which);
-            out->t = t;
-            if (event == PATH_SCATTERED) {
-                out->medium = walk_part(w, which)->medium;
-                out->sigma_s = rgb_mean(at.all_s);
-                p->count->collisions++;
-            }
+    path_flight f;
+    path_depart(s, p, l, &f);
+    for (;;) {
+        float step;
+        bool collides = track_advance(l, &step);
+        path_gather(p, f.source, f.majorant, step);
+        path_fly(p, f.majorant, step);
+        if (collides) {
+            track_point x;
+            l->tau = rng_optical_depth(&p->random);
+            track_look(s, &l->walk, vec3_mad(p->o, l->t, p->d), l->t, &x);
+            int event = path_meet(s, p, l, &f, &x, out);
             if (event != PATH_THROUGH)
                 return event;
+        } else if (walk_next(s, &l->walk)) {
+            path_enter(s, p, l, &f);
+        } else {
+            p->depth = l->tau;
+            return PATH_THROUGH;
         }
-    } while (walk_next(s, w));
-    p->depth = tau;
-    return PATH_THROUGH;
+    }
 }
 
 /* Scattering, and in *all attenuation, of all active media in the middle of

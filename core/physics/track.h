@@ -68,27 +68,66 @@ HD float track_majorant(const flat_scene *s, const media_walk *w)
     return rgb_max(sum);
 }
 
-HD rgb track_sigma_t(const flat_scene *s, const media_walk *w, vec3 p,
-                     float t)
+/* A line through media: the piece where it is, and how far it has come. */
+typedef struct {
+    media_walk walk;
+    float t;
+    float tau;              /* optical depth to the next tentative collision */
+    float majorant;         /* ... by which it is drawn in this piece      */
+} track_line;
+
+/* On to the next tentative collision, or, false, to the end of the piece. */
+HD bool track_advance(track_line *l, float *step)
+{
+    float left = l->majorant * (l->walk.t_end - l->t);
+    bool collides = l->tau < left;
+    *step = collides ? l->tau / l->majorant : l->walk.t_end - l->t;
+    l->t += *step;
+    if (!collides)
+        l->tau -= left;
+    return collides;
+}
+
+/* What media hold at a tentative collision, as far as they may hold something
+ * there. */
+typedef struct {
+    rgb density[MAX_ACTIVE];
+    field_point at[MAX_ACTIVE];
+} track_point;
+
+HD void track_look(const flat_scene *s, const media_walk *w, vec3 p, float t,
+                   track_point *out)
+{
+    for (int i = 0; i < walk_parts(w); i++) {
+        const majorant_cell *bound = &walk_part(w, i)->bound;
+        int k = part_place(i);
+        out->density[k] = rgb_gray(0.0f);
+        if (bound->density == 0.0f && bound->rate == 0.0f)
+            continue;
+        out->at[k] = lattice_point(s, walk_part(w, i), p, t);
+        out->density[k] = medium_density(s, walk_medium(s, w, i), &out->at[k]);
+    }
+}
+
+/* Of all but homogeneous media. */
+HD rgb track_sigma_t(const flat_scene *s, const media_walk *w,
+                     const track_point *x)
 {
     rgb sum = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
         const flat_medium *m = walk_medium(s, w, i);
-        if (m->uniform || walk_part(w, i)->bound.density == 0.0f)
-            continue;
-        field_point x = lattice_point(s, walk_part(w, i), p, t);
-        sum = rgb_add(sum, rgb_mul(m->sigma_t, medium_density(s, m, &x)));
+        if (!m->uniform && walk_part(w, i)->bound.density != 0.0f)
+            sum = rgb_add(sum, rgb_mul(m->sigma_t, x->density[part_place(i)]));
     }
     return sum;
 }
 
-/* One tentative collision; false when the product is dead. Beyond a majorant
- * that does not hold it changes its sign: still unbiased. */
-HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
-                      float t, float majorant, rng *r, rgb *product,
+/* What is left of a product after a tentative collision with attenuation
+ * `sigma`; false when it is dead. Beyond a majorant that does not hold it
+ * changes its sign: still unbiased. */
+HD bool track_collide(rgb sigma, float majorant, rng *r, rgb *product,
                       track_counters *c)
 {
-    rgb sigma = track_sigma_t(s, w, p, t);
     c->lookups++;
     if (rgb_max(sigma) > majorant * 1.00001f)
         c->majorant_exceeded++;
@@ -107,39 +146,61 @@ HD bool track_collide(const flat_scene *s, const media_walk *w, vec3 p,
     return true;
 }
 
+/* Transmittance of what a line goes through, as far as it has come. */
+typedef struct {
+    rgb even;               /* of homogeneous media, all along             */
+    rgb product;            /* of the others, by ratio tracking            */
+} track_passed;
+
+HD void track_enter(const flat_scene *s, track_line *l)
+{
+    l->majorant = track_majorant(s, &l->walk);
+    l->t = l->walk.t;
+}
+
+/* Begins with the line's walk; false: all is known already. */
+HD bool track_begin(const flat_scene *s, track_line *l, rng *r,
+                    track_passed *out)
+{
+    bool uneven;
+    out->even = out->product = rgb_gray(1.0f);
+    if (!track_attenuates(s, &l->walk, &uneven))
+        return false;
+    rgb even = rgb_scale(track_uniform(s, &l->walk),
+                         -(l->walk.t_max - l->walk.t));
+    out->even = rgb_make(fm_exp(even.r), fm_exp(even.g), fm_exp(even.b));
+    if (!uneven)
+        return false;
+    l->tau = rng_optical_depth(r);
+    track_enter(s, l);
+    return true;
+}
+
 HD_APART rgb track_media(const flat_scene *s, const container_set *set,
                          bool atmosphere, vec3 o, vec3 d, float t0, float t1,
                          rng *r, track_counters *c)
 {
-    media_walk w;
-    walk_begin(s, &w, set, atmosphere, o, d, t0, t1);
-    c->overflow += w.overflow;
-    rgb product = rgb_gray(1.0f);
-    bool uneven;
-    if (!track_attenuates(s, &w, &uneven))
-        return product;
-    rgb uniform = rgb_scale(track_uniform(s, &w), -(t1 - t0));
-    float tau = uneven ? rng_optical_depth(r) : 0.0f;
-    do {
-        float majorant = track_majorant(s, &w);
-        if (!(majorant > 0.0f))
-            continue;
-        float t = w.t;
-        for (;;) {
-            float left = majorant * (w.t_end - t);
-            if (!(tau < left)) {
-                tau -= left;
-                break;
-            }
-            t += tau / majorant;
-            tau = rng_optical_depth(r);
-            if (!track_collide(s, &w, vec3_mad(o, t, d), t, majorant, r,
-                               &product, c))
+    track_line l;
+    track_passed passed;
+    walk_begin(s, &l.walk, set, atmosphere, o, d, t0, t1);
+    c->overflow += l.walk.overflow;
+    bool goes_on = track_begin(s, &l, r, &passed);
+    while (goes_on) {
+        float step;
+        track_point x;
+        if (track_advance(&l, &step)) {
+            l.tau = rng_optical_depth(r);
+            track_look(s, &l.walk, vec3_mad(o, l.t, d), l.t, &x);
+            if (!track_collide(track_sigma_t(s, &l.walk, &x), l.majorant, r,
+                               &passed.product, c))
                 return rgb_gray(0.0f);
+            continue;
         }
-    } while (uneven && walk_next(s, &w));
-    return rgb_mul(product, rgb_make(fm_exp(uniform.r), fm_exp(uniform.g),
-                                     fm_exp(uniform.b)));
+        goes_on = walk_next(s, &l.walk);
+        if (goes_on)
+            track_enter(s, &l);
+    }
+    return rgb_mul(passed.product, passed.even);
 }
 
 /* Unbiased transmittance from t0 to t1 through the media of `set`. */

@@ -197,10 +197,10 @@ static inline bool walk_fly(struct walk *w, struct walker *a, size_t i)
     double depth = walk_depth(w, a, i);
     walk_words(&p.random, depth, walk_choice(w, a, i));
     for (;;) {
-        media_walk m;
+        track_line m;
         path_event event;
-        walk_begin(s, &m, &p.inside, true, o, d, p.after.t, h.t);
-        int what = m.count ? path_track(s, &p, &m, &event) : PATH_THROUGH;
+        walk_begin(s, &m.walk, &p.inside, true, o, d, p.after.t, h.t);
+        int what = m.walk.count ? path_track(s, &p, &m, &event) : PATH_THROUGH;
         if (what == PATH_SCATTERED) {
             walk_arrive(w, a, &p, &event);
             return true;
