@@ -139,6 +139,13 @@ static bool has_kd(const struct flat *f)
     return f->kd_count > 0 || (f->order && f->order->tree == BRUME_TREE_KD);
 }
 
+/* Whether paths end at their first event, in a medium or on a surface. */
+static bool is_single(const struct flat *f)
+{
+    return !f->view.media_multiple ||
+           (has_surfaces(f) && !f->view.surfaces_indirect);
+}
+
 static int scene_needs(const struct flat *f)
 {
     return (has_solids(f) ? MAY_SOLIDS : 0) |
@@ -190,7 +197,8 @@ struct stages plan_stages(const struct flat *f,
     /* What cells hold of it comes along lines: edges are smoothed there. */
     s.lines = s.passes || has_noisy_lines(f) ||
               (s.photons && radiance_keeps_lit(f, options));
-    s.needs = scene_needs(f) | (s.photons ? MAY_FIELD : 0);
+    s.needs = scene_needs(f) | (s.photons ? MAY_FIELD : 0) |
+              (s.photons || is_single(f) ? MAY_SINGLE : 0);
     return s;
 }
 

@@ -9,15 +9,14 @@
 namespace
 {
 
-/* Samples of one launch: short enough for a stop to be heard within a second
- * or so, long enough that threads find work when their first paths end. */
-const uint32_t samples_per_launch = most_samples;
-
-/* Paths of a launch, at most, for the memory. */
-const size_t most_paths = 1u << 21;
+/* Paths of a launch, at most: few enough for the memory and for a stop to be
+ * heard within a second or so, many enough that threads find work when their
+ * first paths end. */
+const size_t most_paths = 1u << 22;
 
 /* From the leanest to the one that can do all. */
-const sample_stage *const kernels[] = {&sample_media, &sample_glow, &sample_lit,
+const sample_stage *const kernels[] = {&sample_gray, &sample_media,
+                                       &sample_glow, &sample_lit,
                                        &sample_fire, &sample_all};
 
 const lines_stage *const line_kernels[] = {&lines_media, &lines_fire,
@@ -69,6 +68,13 @@ bool stays(const cuda_state *s, const void *array, size_t bytes)
            array != s->frame.flat->view.radiance;
 }
 
+/* Samples of one launch. */
+uint32_t samples_per_launch(const cuda_state *s)
+{
+    bool single = (s->frame.stages->needs & MAY_SINGLE) != 0;
+    return single ? most_samples : 2 * most_samples;
+}
+
 /* Rows of the film whose paths, so many a pixel, are of one launch; the
  * launches of all rows are about as large. */
 int path_rows(const film *f, uint32_t samples)
@@ -85,7 +91,7 @@ size_t paths_at_once(const cuda_state *s)
 {
     const film *f = s->frame.film;
     size_t most = 0;
-    for (uint32_t i = 1; i <= samples_per_launch; i++) {
+    for (uint32_t i = 1; i <= samples_per_launch(s); i++) {
         size_t paths = static_cast<size_t>(path_rows(f, i)) *
                        static_cast<size_t>(f->x1 - f->x0) * i;
         most = paths > most ? paths : most;
@@ -413,9 +419,9 @@ bool cuda_sample(void *state, uint32_t *samples, brume_stats *stats,
     if (!device_check(cudaMemset(s->job.count, 0, sizeof *s->job.count),
                       "clearing the counters", err))
         return false;
+    const uint32_t most = samples_per_launch(s);
     for (uint32_t done = 0; done < count;) {
-        uint32_t n = count - done < samples_per_launch ? count - done
-                                                       : samples_per_launch;
+        uint32_t n = count - done < most ? count - done : most;
         s->job.first = f->samples + done;
         s->job.samples = n;
         s->job.line = film_lines(f, s->job.first);

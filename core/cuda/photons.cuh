@@ -84,7 +84,7 @@ struct photon_stage {
 };
 
 /* What no photon meets; once photons are born, the others are no matter. */
-enum { PHOTONS_IGNORE = MAY_PLATE,
+enum { PHOTONS_IGNORE = MAY_PLATE | MAY_SINGLE,
        TRACE_IGNORES = PHOTONS_IGNORE | MAY_EMISSION | MAY_SKY | MAY_LAMPS };
 
 extern const photon_stage photons_media, photons_colors, photons_lit,

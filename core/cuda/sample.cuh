@@ -18,7 +18,7 @@ struct path_queue {
     unsigned listed, taken;
 };
 
-/* Samples of a job, at most. */
+/* Samples of a job, at most, where light is sought along the eye's rays. */
 const unsigned most_samples = 8;
 
 /* Samples [first, first + samples) of the film's pixels. */
@@ -49,10 +49,10 @@ struct lines_stage {
 };
 
 /* What the lines of a scene are the same with and without. */
-const int LINES_IGNORE = MAY_LAMPS | MAY_CLEAR;
+const int LINES_IGNORE = MAY_LAMPS | MAY_CLEAR | MAY_SINGLE;
 
 extern const lines_stage lines_media, lines_fire, lines_lit, lines_all;
 
-extern const sample_stage sample_media, sample_glow, sample_lit, sample_fire,
-    sample_all;
+extern const sample_stage sample_gray, sample_media, sample_glow, sample_lit,
+    sample_fire, sample_all;
 #endif

@@ -144,6 +144,8 @@ sample_bent(const __grid_constant__ sample_job job)
             break;
         if (alive) {
             path.straight = 0;
+            path.beta = path_gray(path.beta);
+            path.r_u = may_gray(path.r_u);
             alive = single_segment(&job.scene, &path, &plate, &count);
             if (!alive)
                 job.result[result] = path.radiance;

@@ -26,7 +26,8 @@ enum {
     MAY_PLATE = 16384,      /* a picture from elsewhere before the eye     */
     MAY_TINTS = 32768,      /* power of photons whose channels differ: what
                                samples do is the same                      */
-    MAY_ALL = 65535
+    MAY_SINGLE = 65536,     /* paths that end at their first event         */
+    MAY_ALL = 131071
 };
 
 #ifndef SCENE_MAY

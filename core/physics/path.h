@@ -175,18 +175,25 @@ typedef struct {
 HD bool path_visit_field(const flat_scene *s, path_state *p,
                          const path_vertex *v)
 {
-    if (v->on_surface || s->field.numbers == 0 ||
+    if (!scene_may(MAY_FIELD) || v->on_surface || s->field.numbers == 0 ||
         (!p->straight && s->field.straight))
         return false;
     path_field(s, p, v);
     return true;
 }
 
+HD bool path_may_go_on(const flat_scene *s, const path_vertex *v)
+{
+    if (!scene_may(MAY_SINGLE))
+        return true;
+    return v->on_surface ? s->surfaces_indirect : s->media_multiple;
+}
+
 /* The next connection from a vertex; false: there is none more. */
 HD bool path_connects(const flat_scene *s, path_state *p, const path_vertex *v,
                       path_visit *visit, path_connection *c)
 {
-    bool goes_on = v->on_surface ? s->surfaces_indirect : s->media_multiple;
+    bool goes_on = path_may_go_on(s, v);
     if (visit->next == VISIT_BEGINS) {
         visit->next = VISIT_LIGHTS;
         visit->lights = path_lights_choose(s, p, v);
@@ -208,7 +215,7 @@ HD bool path_connects(const flat_scene *s, path_state *p, const path_vertex *v,
         if (path_sky(s, p, v, c))
             return true;
     }
-    if (visit->next != VISIT_REST)
+    if (!scene_may(MAY_SINGLE) || visit->next != VISIT_REST)
         return false;
     visit->next = VISIT_ENDS;
     return path_sky_rest(s, p, v, c);
@@ -325,7 +332,7 @@ HD bool path_land(const flat_scene *s, path_state *p, plate_view *plate,
     if (event == PATH_SCATTERED) {
         v.on_surface = false;
         v.p = vec3_mad(p->o, to->event.t, p->d);
-        v.medium = &s->media[to->event.medium];
+        v.medium = scene_medium(s, to->event.medium);
         v.event = &to->event;
         return path_stay(s, p, &v);
     }
@@ -333,7 +340,7 @@ HD bool path_land(const flat_scene *s, path_state *p, plate_view *plate,
         event = path_arrive(s, p, plate, to, &at);
     if (event != PATH_SCATTERED)
         return event == PATH_THROUGH;
-    v.on_surface = true;
+    v.on_surface = scene_may(MAY_SURFACES);
     v.p = at.p;
     v.surface = &at;
     path_add(p, rgb_mul(p->beta, surface_glow(at.material, at.color,

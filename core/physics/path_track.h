@@ -51,6 +51,13 @@ typedef struct {
     track_counters *count;
 } path_state;
 
+/* Of a throughput that no more than media have changed: where these are gray its
+ * channels are alike. */
+HD rgb path_gray(rgb beta)
+{
+    return scene_may(MAY_COLORS | MAY_SURFACES) ? beta : rgb_gray(beta.r);
+}
+
 HD void path_add(path_state *p, rgb value)
 {
     p->radiance = rgb_add(p->radiance,
@@ -178,6 +185,8 @@ HD rgb path_majorant(const flat_scene *s, const media_walk *w, bool emission)
 /* Majorant transmittance of each channel over that of the driver. */
 HD rgb path_ratio(const path_state *p, rgb majorant, float distance)
 {
+    if (!scene_may(MAY_COLORS))
+        return rgb_gray(1.0f);
     float driver = rgb_get(majorant, p->driver);
     rgb over = rgb_sub(majorant, rgb_gray(driver));
     if (rgb_is_black(over))

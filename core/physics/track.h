@@ -98,6 +98,7 @@ typedef struct {
 HD void track_look(const flat_scene *s, const media_walk *w, vec3 p, float t,
                    track_point *out)
 {
+    out->density[0] = rgb_gray(0.0f);
     for (int i = 0; i < walk_parts(w); i++) {
         const majorant_cell *bound = &walk_part(w, i)->bound;
         int k = part_place(i);
