@@ -22,8 +22,9 @@ const sample_stage *const kernels[] = {&sample_gray, &sample_media,
 const lines_stage *const line_kernels[] = {&lines_media, &lines_fire,
                                            &lines_lit, &lines_all};
 
-const photon_stage *const photon_kernels[] = {
-    &photons_media, &photons_colors, &photons_lit, &photons_fire, &photons_all};
+const photon_stage *const photon_kernels[] = {&photons_media,  &photons_balls,
+                                              &photons_colors, &photons_lit,
+                                              &photons_fire,   &photons_all};
 
 bool cuda_available(char *why, size_t size)
 {

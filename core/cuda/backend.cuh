@@ -27,6 +27,7 @@ struct cuda_state {
     photon_totals *total;
     void *list[2];              /* of photons that wait                    */
     photon_queue *queue;
+    void *rings;                /* of the last photons                     */
     uint64_t *cell_list;        /* room for all; NULL where none is made   */
     cell_queue *cell_queue;
     int processors, trace_threads;

@@ -279,5 +279,5 @@ cudaError_t trace(const trace_job *job, unsigned blocks, int threads)
 }
 
 const photon_stage LONE_STAGE = {
-    SCENE_MAY, sizeof(lone_born), 0, lone_threads, lone_blocks,
+    SCENE_MAY, sizeof(lone_born), 0, 0, lone_threads, lone_blocks,
     lone_bear, trace, nullptr, nullptr};

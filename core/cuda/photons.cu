@@ -51,6 +51,12 @@ size_t list_bytes(const cuda_state *s)
     return device_round(list_room(s) * s->births->state_bytes);
 }
 
+size_t ring_bytes(const cuda_state *s)
+{
+    return device_round(s->tracer->ring_bytes *
+                        static_cast<size_t>(s->processors));
+}
+
 /* Bytes of a list of all the field's cells, where some are looked for. */
 size_t cell_list_bytes(const backend_frame *frame)
 {
@@ -112,6 +118,8 @@ bool start(cuda_state *s, const photon_job *job, trace_job *out,
     out->room = list_room(s);
     out->queue = s->queue;
     out->turn = 0;
+    out->processors = s->processors;
+    out->rings = s->rings;
     out->sum = s->sum;
     out->total = s->total;
     size_t bytes = static_cast<size_t>(job->sources) * sizeof *s->source;
@@ -193,7 +201,7 @@ size_t photons_bytes(const cuda_state *s)
     return device_round(radiance_sum_bytes(frame->flat)) +
            device_round(most_sources(frame) * sizeof(photon_source)) +
            device_round(sizeof(photon_totals)) + 2 * list_bytes(s) +
-           device_round(sizeof(photon_queue)) +
+           device_round(sizeof(photon_queue)) + ring_bytes(s) +
            device_round(sizeof(cell_queue)) +
            device_round(cell_list_bytes(frame));
 }
@@ -211,6 +219,7 @@ bool photons_open(cuda_state *s, brume_error *err)
     s->list[0] = device_take(a, list_bytes(s));
     s->list[1] = device_take(a, list_bytes(s));
     s->queue = static_cast<photon_queue *>(device_take(a, sizeof *s->queue));
+    s->rings = device_take(a, ring_bytes(s));
     s->cell_queue = static_cast<cell_queue *>(
         device_take(a, sizeof *s->cell_queue));
     s->cell_list = static_cast<uint64_t *>(

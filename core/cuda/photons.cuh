@@ -33,6 +33,7 @@ __device__ inline void count_books(photon_totals *total,
  * from a list, and leaves in the other what it does not see to the end. */
 struct photon_queue {
     unsigned taken;         /* of this launch's list                       */
+    unsigned followed;      /* of those that the last launch leaves        */
     unsigned left[2];       /* in each list, of the launch before          */
 };
 
@@ -48,6 +49,8 @@ struct trace_job {
     photon_queue *queue;
     int turn;               /* whose list is taken from                    */
     int last;               /* 1: nothing is to be left                    */
+    int processors;
+    void *rings;            /* of the last photons' warps                  */
     int64_t *sum;           /* of the field's cells                        */
     photon_totals *total;
     lone_scene lone;        /* of stages that are for it                   */
@@ -74,6 +77,7 @@ struct photon_stage {
     int may;                /* MAY_* of the scenes that it can do          */
     size_t state_bytes;     /* of a photon_state                           */
     size_t warp_bytes;      /* of a warp's memory that it shares           */
+    size_t ring_bytes;      /* of the last photons', a multiprocessor      */
     int threads, blocks;    /* of a block that traces, at most; blocks of a
                                multiprocessor                              */
     void (*bear)(const trace_job *job);
@@ -87,6 +91,6 @@ struct photon_stage {
 enum { PHOTONS_IGNORE = MAY_PLATE | MAY_SINGLE,
        TRACE_IGNORES = PHOTONS_IGNORE | MAY_EMISSION | MAY_SKY | MAY_LAMPS };
 
-extern const photon_stage photons_media, photons_colors, photons_lit,
-    photons_fire, photons_all;
+extern const photon_stage photons_media, photons_balls, photons_colors,
+    photons_lit, photons_fire, photons_all;
 #endif

@@ -5,12 +5,12 @@
  * threads that stay take them. All threads of a multiprocessor go round
  * together, from the end of a flight through the next one: so each instruction
  * that is fetched is used by many. Long ways are cut short where few threads
- * are left on them, which go on in the next round. Where the list ends before
- * the last launch, photons are left to the next one, as some live a thousand
- * times as long as most. Who takes which photon depends on time; all sums are
- * of whole numbers, so that none shows it. */
-#include "core/cuda/count.cuh"
-#include "core/cuda/photons.cuh"
+ * are left on them, which go on in the next round. As some photons live a
+ * thousand times as long as most, they are left to the next launch where the
+ * list ends, and those of the last launch to a kernel for few photons. Who
+ * takes which photon depends on time; all sums are of whole numbers, so that
+ * none shows it. */
+#include "core/cuda/photons_last.cuh"
 #include "core/physics/lit_cell.h"
 
 namespace
@@ -27,9 +27,9 @@ const int blocks_of_births = 3;
 const int most_steps = 16, step_threads = 4;
 const int seek_threads = 4, lay_threads = 24;
 
-/* So few of a warp wait for each other no more, nor so few of a block: photons
- * that live long have it to themselves at the end. */
-const int few_of_warp = 8, few_of_block = 64;
+/* So few of a warp wait for each other no more; so few of a block are left to
+ * others. */
+const int few_of_warp = 8, few_of_block = 32;
 
 /* What is next of a thread's photon, beside photon_next: to get one, and that
  * there is none left. */
@@ -41,15 +41,9 @@ struct tracer {
     int next;
 };
 
-/* Stretches of flights that are to be laid wait in a ring that a warp's threads
- * share: each lays one after the other, whosever photon it was. */
+/* Of stretches, which wait in a ring that a warp's threads share: each lays one
+ * after the other, whosever photon it was. */
 const int ring_size = 2 * warp_size;
-
-struct stretch {
-    vec3 o, d;
-    float from, to;
-    rgb power;
-};
 
 struct warp_memory {
     photon_counters count[warp_size];
@@ -63,66 +57,6 @@ struct layer {
     bool busy;
     int first, count;       /* of the ring; alike in all threads           */
 };
-
-/* Words of a photon in a list. Beside a word lies that of the next photon, so
- * that threads share the transactions in which they write and read photons. */
-const int state_words = sizeof(photon_state) / sizeof(uint4);
-
-__device__ __forceinline__ void put_photon(const trace_job *job, int turn,
-                                           unsigned i, const photon_state *p)
-{
-    uint4 word[state_words];
-    uint4 *at = static_cast<uint4 *>(job->list[turn]) + i;
-    memcpy(word, p, sizeof *p);
-    for (int k = 0; k < state_words; k++)
-        at[static_cast<size_t>(k) * job->room] = word[k];
-}
-
-__device__ __forceinline__ photon_state get_photon(const trace_job *job,
-                                                   int turn, unsigned i)
-{
-    uint4 word[state_words];
-    const uint4 *at = static_cast<const uint4 *>(job->list[turn]) + i;
-    photon_state p;
-    for (int k = 0; k < state_words; k++)
-        word[k] = at[static_cast<size_t>(k) * job->room];
-    memcpy(&p, word, sizeof p);
-    return p;
-}
-
-/* Stores the events that wait of a warp's threads, all of them here: one after
- * the other, each thread in cells of its own. */
-__device__ __forceinline__ void store(const flat_scene *s,
-                                      const radiance_event *event,
-                                      photon_counters *count)
-{
-    int lane = threadIdx.x % warp_size;
-    if (!scene_may(MAY_BALLS) || !s->field.ball)
-        return;
-    unsigned all = __ballot_sync(~0u, count->tally.waits != 0);
-    count->tally.waits = 0;
-    __syncwarp();
-    for (; all != 0u; all &= all - 1u) {
-        int owner = __ffs(all) - 1;
-        const radiance_event *e = &event[owner];
-        radiance_box b = radiance_box_of(s, e->p);
-        int wide = b.hi[0] - b.lo[0] + 1, high = b.hi[1] - b.lo[1] + 1;
-        int cells = wide * high * (b.hi[2] - b.lo[2] + 1);
-        bool stored = false;
-        if (wide <= 0 || high <= 0)
-            cells = 0;
-        for (int i = lane; i < cells; i += warp_size)
-            if (radiance_splat_cell(s, count->tally.sum, e, &b,
-                                    b.lo[0] + i % wide,
-                                    b.lo[1] + i / wide % high,
-                                    b.lo[2] + i / (wide * high)))
-                stored = true;
-        stored = __any_sync(~0u, stored);
-        if (lane == owner && stored)
-            count->stored++;
-    }
-    __syncwarp();
-}
 
 /* Gives threads that wait for one the next photons of the list. */
 __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
@@ -142,7 +76,7 @@ __device__ __forceinline__ void take_photons(const trace_job *job, tracer *t,
     }
 }
 
-/* Leaves photons between two flights to the next launch. */
+/* Leaves photons between two flights to others. */
 __device__ __forceinline__ void leave_photons(const trace_job *job, tracer *t)
 {
     bool leaves = t->next == PHOTON_LANDS;
@@ -156,7 +90,7 @@ __device__ __forceinline__ void leave_photons(const trace_job *job, tracer *t)
 /* What follows a flight, and the next one. */
 __device__ __forceinline__ void land(const trace_job *job, tracer *t,
                                      const radiance_event *event,
-                                     photon_counters *count)
+                                     photon_counters *count, bool few)
 {
     const flat_scene *s = &job->scene;
     if (t->next == PHOTON_LANDS &&
@@ -164,7 +98,7 @@ __device__ __forceinline__ void land(const trace_job *job, tracer *t,
         t->next = TRACER_TAKES;
     store(s, event, count);
     take_photons(job, t, count);
-    if (!job->last && __any_sync(~0u, t->next == TRACER_ENDS))
+    if (few || (!job->last && __any_sync(~0u, t->next == TRACER_ENDS)))
         leave_photons(job, t);
     if (t->next == PHOTON_LANDS) {
         photon_take_off(s, &t->photon, count, &t->flight);
@@ -283,19 +217,6 @@ __device__ __forceinline__ void lay(const flat_scene *s, warp_memory *m,
     }
 }
 
-__device__ __forceinline__ void write_counts(const trace_job *job,
-                                             const photon_counters *c)
-{
-    photon_totals *total = job->total;
-    count_add(&total->track, &c->track);
-    count_warp(&total->photons, c->photons);
-    count_warp(&total->events, c->events);
-    count_warp(&total->bounces, c->bounces);
-    count_warp(&total->stored, c->stored);
-    count_warp(&total->clipped, c->tally.clipped);
-    count_books(total, &c->books);
-}
-
 __global__ void __launch_bounds__(births_at_once, blocks_of_births)
 bear_photons(const __grid_constant__ trace_job job)
 {
@@ -305,7 +226,8 @@ bear_photons(const __grid_constant__ trace_job job)
     count.tally.sum = job.sum;
     count.tally.later = &event[threadIdx.x];
     if (i == 0)
-        job.queue->taken = job.queue->left[!job.turn] = 0;
+        job.queue->taken = job.queue->followed = job.queue->left[!job.turn] =
+            0;
     if (i < job.born) {
         photon_state p;
         if (!photon_begin(&job.scene, &job.photons, job.first + i, &p, &count))
@@ -316,15 +238,11 @@ bear_photons(const __grid_constant__ trace_job job)
     write_counts(&job, &count);
 }
 
-/* Whether a photon is left: to the block, or to a warp once all of the block's
- * go by themselves. */
-__device__ __forceinline__ bool goes_round(const tracer *t, bool *alone)
+/* Whether a photon is left to the block; *few: so few that it leaves them. */
+__device__ __forceinline__ bool goes_round(const tracer *t, bool *few)
 {
-    bool on = t->next != TRACER_ENDS;
-    if (*alone)
-        return __any_sync(~0u, on);
-    int left = __syncthreads_count(on);
-    *alone = left <= few_of_block;
+    int left = __syncthreads_count(t->next != TRACER_ENDS);
+    *few = left <= few_of_block;
     return left > 0;
 }
 
@@ -343,9 +261,9 @@ trace_photons(const __grid_constant__ trace_job job)
     t.next = TRACER_TAKES;
     l.busy = false;
     l.first = l.count = 0;
-    bool alone = false;
-    while (goes_round(&t, &alone)) {
-        land(&job, &t, m->event, count);
+    bool few;
+    while (goes_round(&t, &few)) {
+        land(&job, &t, m->event, count, few);
         seek(&job, &t);
         if (t.next == PHOTON_DEPARTS) {
             photon_depart(s, &t.photon, count, &t.flight);
@@ -573,6 +491,8 @@ cudaError_t trace(const trace_job *job, unsigned blocks, int threads)
     if (code != cudaSuccess)
         return code;
     trace_photons<<<blocks, threads, bytes>>>(*job);
+    if (job->last)
+        follow_photons<<<last_blocks * job->processors, last_threads>>>(*job);
     return cudaGetLastError();
 }
 
@@ -591,5 +511,5 @@ void light(const cell_job *job)
 }
 
 const photon_stage PHOTON_STAGE = {
-    SCENE_MAY, sizeof(photon_state), sizeof(warp_memory), most_trace_threads, 1,
-    bear, trace, balls, light};
+    SCENE_MAY, sizeof(photon_state), sizeof(warp_memory), last_bytes,
+    most_trace_threads, 1, bear, trace, balls, light};
