@@ -24,9 +24,12 @@ SCENES = os.environ.get("PEER_SCENES", "cloud smoke fog").split()
 # Samples of: a picture of each, a reference's part and its parts.
 SAMPLES = [int(n) for n in os.environ.get("PEER_SAMPLES", "64 64 8").split()]
 RR_DEPTHS = (64, 8)
-# Of the default integrator: photons and samples a pixel.
-DEFAULTS = [(250000, 1), (1000000, 1), (1000000, 4), (1000000, 16),
-            (4000000, 16), (4000000, 64), (16000000, 64)]
+# Of the default integrator, whose fields' cells leave an error, and of the one
+# that goes on to smaller ones: photons and samples a pixel.
+OURS = {"photon": [(250000, 1), (1000000, 1), (1000000, 4), (1000000, 16),
+                   (4000000, 16), (4000000, 64), (16000000, 64)],
+        "progressive": [(1000000, 4), (1000000, 16), (4000000, 16),
+                        (4000000, 64)]}
 GRID = {"cloud": (192, 128, 192), "smoke": (96, 96, 96)}
 # Half the sides of the containers.
 HALF = {"cloud": (0.8625, 0.575, 0.8625), "smoke": (1, 1, 1)}
@@ -315,18 +318,18 @@ def path_rows(judge, name, spp, ours, theirs):
     return rows, [min(kind) for kind in zip(*costs)]
 
 
-def default_rows(judge, name, brume, theirs):
-    """The default integrator by its photons and samples, and the least time of
-    these to an error beside that of volpath, `theirs` relMSE times seconds, of
-    all pixels and of most."""
+def field_rows(judge, name, integrator, brume, theirs):
+    """An integrator that makes fields, by its photons and samples, and the least
+    time of these to an error beside that of volpath, `theirs` relMSE times
+    seconds, of all pixels and of most."""
     rows, seen = [], []
-    for photons, spp in DEFAULTS:
+    for photons, spp in OURS[integrator]:
         picture, device, whole = brume.draw(
-            7, "--integrator", "photon", "--photons", str(photons), "--spp",
+            7, "--integrator", integrator, "--photons", str(photons), "--spp",
             str(spp))
         error = max(judge.error(picture), 0.0) ** 0.5
         seen.append((device, error))
-        rows.append({"scene": name, "who": f"brume photon {photons}",
+        rows.append({"scene": name, "who": f"brume {integrator} {photons}",
                      "spp": spp, "s": f"{device:.4f}",
                      "with_start_s": f"{whole:.3f}",
                      "error_%": f"{100 * error:.2f}"})
@@ -334,9 +337,9 @@ def default_rows(judge, name, brume, theirs):
         good = [s for s, error in seen if error <= percent / 100]
         over = [f"{cost / (percent / 100) ** 2 / min(good):.0f}"
                 for cost in theirs if good]
-        rows.append({"scene": name, "who": f"photon to {percent} %",
+        rows.append({"scene": name, "who": f"{integrator} to {percent} %",
                      "s": f"{min(good):.4f}" if good else "not reached",
-                     "over_default": " ".join(over)})
+                     "times": " ".join(over)})
     return rows
 
 
@@ -364,7 +367,10 @@ def scene_rows(mi, np, parts, render, folder, name):
     judge = Judge(np, references[0][0], references[1][0])
     rows = [between(judge, name, *references)]
     more, costs = path_rows(judge, name, spp, ours, theirs)
-    return rows + more + default_rows(judge, name, brume, costs)
+    rows += more
+    for integrator in OURS:
+        rows += field_rows(judge, name, integrator, brume, costs)
+    return rows
 
 
 def rows(render, folder):
