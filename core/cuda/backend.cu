@@ -138,7 +138,7 @@ const void *upload_array(cuda_state *s, const void *from, size_t bytes,
         return resident_take(s->kept, from, bytes, err);
     void *to = device_take(&s->arena, bytes);
     bool good = from == s->frame.flat->view.radiance ||
-                upload_put(&s->to, to, from, bytes, err);
+                upload_put(&s->to, s->arena.base, to, from, bytes, err);
     return good ? to : nullptr;
 }
 

@@ -131,8 +131,8 @@ bool send(resident_set *set, const resident *r, const parcel *p,
                              : static_cast<const char *>(host) + p->from;
     char *to = r->device + p->from;
     set->uploaded += there ? 0 : p->size;
-    return there ? upload_move(set->to, to, from, p->size, err)
-                 : upload_put(set->to, to, from, p->size, err);
+    return there ? upload_move(set->to, r->device, to, from, p->size, err)
+                 : upload_put(set->to, r->device, to, from, p->size, err);
 }
 
 bool send_pieces(resident_set *set, const resident *r, const void *host,

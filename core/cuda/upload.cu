@@ -22,10 +22,11 @@ const size_t part_size = 2u << 20, first_size = 256u << 10;
 const size_t piece_size = 64u << 10;
 const int most_threads = 12;
 
-/* Shorter gaps are sent along: what is allocated is no shorter. */
+/* Shorter gaps of an allocation are sent along. */
 const ptrdiff_t most_gap = 256;
 
 struct part {
+    const void *whole; /* no copy goes beyond one allocation         */
     char *to;
     size_t bytes;
     size_t item;              /* the first that it has bytes of            */
@@ -59,10 +60,10 @@ size_t limit_of(size_t part)
     return std::min(first_size << std::min(part, size_t{8}), part_size);
 }
 
-/* Whether bytes for that place can follow those of the n-th part. */
-bool follows(const part *p, size_t n, const char *to)
+/* Whether bytes of an item for that place can follow those of the n-th part. */
+bool follows(const part *p, size_t n, const upload_item *item, const char *to)
 {
-    return to - (p->to + p->bytes) < most_gap &&
+    return p->whole == item->whole && to - (p->to + p->bytes) < most_gap &&
            to - p->to < static_cast<ptrdiff_t>(limit_of(n));
 }
 
@@ -101,8 +102,10 @@ void lay_out(sending *s, const upload_list *put)
         const upload_item *item = &put->item[i];
         for (size_t at = 0; at < item->bytes;) {
             part *last = s->list + s->count - 1;
-            if (s->count == 0 || !follows(last, s->count - 1, item->to + at)) {
+            if (s->count == 0 ||
+                !follows(last, s->count - 1, item, item->to + at)) {
                 last = s->list + s->count++;
+                last->whole = item->whole;
                 last->to = item->to + at;
                 last->item = i;
             }
@@ -287,15 +290,15 @@ bool send_moved(const uploader *u, brume_error *err)
     return device_check(code, "uploading the scene", err);
 }
 
-bool add(upload_list *list, void *to, const void *from, size_t bytes,
-         brume_error *err)
+bool add(upload_list *list, const void *whole, void *to, const void *from,
+         size_t bytes, brume_error *err)
 {
     void *grown = memory_grow(list->item, &list->room, list->count + 1,
                               sizeof *list->item, err);
     if (!grown)
         return false;
     list->item = static_cast<upload_item *>(grown);
-    list->item[list->count++] = {static_cast<char *>(to),
+    list->item[list->count++] = {whole, static_cast<char *>(to),
                                  static_cast<const char *>(from), bytes};
     return true;
 }
@@ -344,16 +347,16 @@ void upload_free(uploader *u)
     *u = {};
 }
 
-bool upload_put(uploader *u, void *to, const void *from, size_t bytes,
-                brume_error *err)
+bool upload_put(uploader *u, const void *whole, void *to, const void *from,
+                size_t bytes, brume_error *err)
 {
-    return bytes == 0 || add(&u->put, to, from, bytes, err);
+    return bytes == 0 || add(&u->put, whole, to, from, bytes, err);
 }
 
-bool upload_move(uploader *u, void *to, const void *from, size_t bytes,
-                 brume_error *err)
+bool upload_move(uploader *u, const void *whole, void *to, const void *from,
+                 size_t bytes, brume_error *err)
 {
-    return bytes == 0 || add(&u->moved, to, from, bytes, err);
+    return bytes == 0 || add(&u->moved, whole, to, from, bytes, err);
 }
 
 bool upload_flush(uploader *u, brume_error *err)

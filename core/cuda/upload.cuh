@@ -10,8 +10,10 @@
 /* Parts that are filled or read at once. */
 enum { UPLOAD_PARTS = 4 };
 
-/* Bytes that wait; `from` may be the device's. */
+/* Bytes that wait, for a place in the allocation `whole`; `from` may be the
+ * device's. */
 struct upload_item {
+    const void *whole;
     char *to;
     const char *from;
     size_t bytes;
@@ -36,12 +38,13 @@ struct uploader {
 bool upload_new(uploader *u, int threads, std::atomic<char *> *spare,
                 brume_error *err);
 void upload_free(uploader *u);
-/* Bytes of the host that stay what they are until the flush. */
-bool upload_put(uploader *u, void *to, const void *from, size_t bytes,
-                brume_error *err);
+/* Bytes of the host that stay what they are until the flush, to a place in the
+ * allocation that begins at `whole`. */
+bool upload_put(uploader *u, const void *whole, void *to, const void *from,
+                size_t bytes, brume_error *err);
 /* Bytes of the device, among them what was put or moved before. */
-bool upload_move(uploader *u, void *to, const void *from, size_t bytes,
-                 brume_error *err);
+bool upload_move(uploader *u, const void *whole, void *to, const void *from,
+                 size_t bytes, brume_error *err);
 /* What waits is on its way: before what is launched next. */
 bool upload_flush(uploader *u, brume_error *err);
 #endif
