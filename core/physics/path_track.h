@@ -51,8 +51,8 @@ typedef struct {
     track_counters *count;
 } path_state;
 
-/* Of a throughput that no more than media have changed: where these are gray its
- * channels are alike. */
+/* Of a throughput that no more than media have changed: where these are gray
+ * its channels are alike. */
 HD rgb path_gray(rgb beta)
 {
     return scene_may(MAY_COLORS | MAY_SURFACES) ? beta : rgb_gray(beta.r);
@@ -148,8 +148,8 @@ HD void path_point_of(const flat_scene *s, path_state *p, const media_walk *w,
         rgb q = medium_source(s, m, at, density);
         if (rgb_is_black(q))
             continue;
-        float share = glow_ray_share(s, walk_part(w, i)->medium, at->p, t,
-                                     p->p_dir);
+        float share = glow_ray_share(s, walk_part(w, i)->medium,
+                                     vec3_mad(p->o, t, p->d), t, p->p_dir);
         source = rgb_add(source, rgb_scale(q, share));
     }
     if (!rgb_is_black(source))

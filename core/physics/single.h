@@ -366,7 +366,8 @@ HD bool single_does(const flat_scene *s)
 {
     bool once = s->field.numbers > 0 ? !s->field.single
                                      : !s->media_multiple && !s->environment;
-    return scene_may(MAY_SINGLE) && s->scatters && once && (!s->local_lights || s->field.lit);
+    return scene_may(MAY_SINGLE) && s->scatters && once &&
+           (!s->local_lights || s->field.lit);
 }
 
 /* Whether rays that a surface sends on gather the cells as the eye's do: where

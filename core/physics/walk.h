@@ -232,7 +232,8 @@ HD float lattice_clamp(float x, int32_t cell)
 }
 
 /* The point p at distance t, in the current cell of the lattice however far the
- * ray has come: the cell's bound holds for what is read there. */
+ * ray has come: the cell's bound holds for what is read there. Where all fields
+ * are on that lattice its place in space is not told. */
 HD field_point lattice_inside(const flat_scene *s, const lattice_walk *w,
                               vec3 p, float t)
 {
