@@ -11,7 +11,7 @@
  * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
  * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
  * BACKEND=cuda draws the pictures on a GPU, PIXELS=512 makes them larger than
- * 16 x 16.
+ * 16 x 16, as far as all batches of a row are done in time.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
@@ -315,11 +315,35 @@ static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
     } while (want < 1e6);
 }
 
+static double batch_seconds(const struct truth_row *row, uint32_t frame)
+{
+    double start = cpu_seconds();
+    row->batch(row, 2, frame);
+    return cpu_seconds() - start;
+}
+
+/* Pixels, a power of two, of which batches of two samples are done in time: a
+ * part of their time goes with the pixels, the other is that of few. */
+static void choose_side(const struct truth_row *row, uint32_t *frame,
+                        double seconds)
+{
+    int most = (int)setting("PIXELS", BATCH_PIXELS);
+    double few = 0.0;
+    for (*batch_side() = BATCH_PIXELS; *batch_side() < most;
+         *batch_side() *= 2) {
+        double used = batch_seconds(row, (*frame)++);
+        few = few > 0.0 ? few : used;
+        if ((few + 4.0 * (used - few)) * BATCHES > seconds)
+            break;
+    }
+}
+
 static struct result run_row(struct truth_row *row, uint32_t frame,
                              double seconds)
 {
     struct result out = {0};
     double start = cpu_seconds();
+    choose_side(row, &frame, seconds);
     bool can_walk = row->plan.space != WALK_NOWHERE &&
                     setting("WALK", 0.0) >= 0.0;
     row->walked = can_walk && setting("WALK", 0.0) > 0.0;

@@ -19,11 +19,18 @@ struct truth_row {
     bool sample;            /* run by `make test` too                      */
 };
 
+enum { BATCH_PIXELS = 16 };
+
 /* Pictures are so many pixels wide and high: on a GPU they are to be large. */
+static inline int *batch_side(void)
+{
+    static int side = BATCH_PIXELS;
+    return &side;
+}
+
 static inline int batch_pixels(void)
 {
-    const char *pixels = getenv("PIXELS");
-    return pixels ? atoi(pixels) : 16;
+    return *batch_side();
 }
 
 static inline enum brume_backend batch_backend(void)
