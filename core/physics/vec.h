@@ -27,11 +27,6 @@ HD vec3 vec3_sub(vec3 a, vec3 b)
     return vec3_make(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-HD vec3 vec3_mul(vec3 a, vec3 b)
-{
-    return vec3_make(a.x * b.x, a.y * b.y, a.z * b.z);
-}
-
 HD vec3 vec3_scale(vec3 a, float s)
 {
     return vec3_make(a.x * s, a.y * s, a.z * s);

@@ -56,11 +56,6 @@ HD vec3 warp_disc(float u, float v)
     return warp_around_z(0.0f, sqrtf(u), v);
 }
 
-HD float warp_disc_pdf(void)
-{
-    return WARP_INV_PI;
-}
-
 /* Density cosine / pi around z [Malley]; never exactly horizontal. */
 HD vec3 warp_cosine_hemisphere(float u, float v)
 {
