@@ -89,7 +89,7 @@ CPPFLAGS += -DBRUME_CUDA
 OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
     -lstdc++ -ldl -lrt
 TOOLS    += $(B)/tests/gpu/trees
-SHOOT    := $(call objects,$(wildcard tests/gpu/*.cu))
+ON_GPU   := $(call objects,$(wildcard tests/gpu/*.cu))
 endif
 
 .DELETE_ON_ERROR:
@@ -151,7 +151,7 @@ unit: $(UNITS)
 tools: $(TOOLS)
 
 # What a test asks of a GPU.
-$(B)/tests/gpu/trees: $(SHOOT)
+$(B)/tests/gpu/trees $(B)/tests/unit/test_truth_tables: $(ON_GPU)
 
 # Programs that give inputs of their own making to a part of the program;
 # OpenVDB asks for the sanitizers of C++.
@@ -160,7 +160,7 @@ $(FUZZERS): %: %.o $(FRONT) $(B)/libbrume.a | $(MODULE)
 	    $(call rpath,$$ORIGIN/../..))
 fuzzers: $(FUZZERS)
 
--include $(patsubst %.o,%.d,$(SHOOT) $(LIB) $(IN_MODULE) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
+-include $(patsubst %.o,%.d,$(ON_GPU) $(LIB) $(IN_MODULE) $(CORE) $(PARSER)) $(UNITS:=.d) $(TOOLS:=.d) \
     $(FUZZERS:=.d)
 
 # ---- the two commands

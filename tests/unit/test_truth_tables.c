@@ -10,8 +10,9 @@
  * row's scene is walked through (truth_walk.h), if it may be; WALK=1 does so
  * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
  * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
- * BACKEND=cuda draws the pictures on a GPU, PIXELS=512 makes them larger than
- * 16 x 16, as far as all batches of a row are done in time.
+ * BACKEND=cuda draws the pictures and walks on a GPU, and seconds are the
+ * clock's; PIXELS=512 makes pictures larger than 16 x 16, as far as all batches
+ * of a row are done in time.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
@@ -46,9 +47,9 @@ static struct truth_row *new_row(struct truth_row *rows, int *count)
     return r;
 }
 
-#define ROW(batch_of, truth_is, u_is, ...)                                     \
+#define ROW(measure_of, truth_is, u_is, ...)                                   \
     struct truth_row *r = new_row(rows, count);                                \
-    r->batch = batch_of;                                                       \
+    r->measure = measure_of;                                                   \
     r->truth = truth_is;                                                       \
     /* A picture is of floats. */                                              \
     r->u = fmax(u_is, 2e-6 * fabs(r->truth));                                  \
@@ -258,10 +259,14 @@ static void run_batches(const struct truth_row *row, int spp, uint32_t *frame,
                         struct result *out)
 {
     double sum = 0.0, squares = 0.0;
+    struct batches b = {
+        .count = BATCHES, .spp = spp, .frame = *frame, .stride = 1};
+    row->measure(row, &b);
+    *frame += BATCHES;
     for (int i = 0; i < BATCHES; i++) {
-        double x = row->batch(row, spp, (*frame)++);
-        sum += x - row->truth;
-        squares += (x - row->truth) * (x - row->truth);
+        double off = b.mean[i] - row->truth;
+        sum += off;
+        squares += off * off;
     }
     double mean = sum / BATCHES;
     out->spp = spp;
@@ -271,9 +276,13 @@ static void run_batches(const struct truth_row *row, int spp, uint32_t *frame,
     out->z = mean / hypot(out->error, row->u);
 }
 
-static double cpu_seconds(void)
+/* Of the processor; where a GPU works, of the clock. */
+static double seconds_now(void)
 {
-    return (double)clock() / CLOCKS_PER_SEC;
+    struct timespec t;
+    bool gpu = batch_backend() == BRUME_BACKEND_CUDA;
+    clock_gettime(gpu ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* A number from the environment, or what is so without it. */
@@ -299,16 +308,16 @@ static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
 {
     double target = fmax(setting("RELATIVE", 1e-3) * fabs(row->truth), row->u);
     /* A single sample would lie in the middle of its pixel. */
-    double start = cpu_seconds(), want = 2.0;
+    double start = seconds_now(), want = 2.0;
     do {
-        double before = cpu_seconds();
+        double before = seconds_now();
         run_batches(row, (int)ceil(want), frame, out);
-        double used = cpu_seconds() - before;
+        double used = seconds_now() - before;
         double rare = unseen(row, out->spp);
         out->reached = fmax(out->error, rare) <= target;
         double more = 1.1 * (out->error / target) * (out->error / target);
         more = fmax(more, 1.1 * rare / target);
-        double fits = (seconds - (cpu_seconds() - start)) / used;
+        double fits = (seconds - (seconds_now() - start)) / used;
         if (out->reached || fits < 1.5 || (gives_up && more > fits))
             break;
         want = out->spp * fmin(fmin(fmax(more, 2.0), 50.0), fits);
@@ -317,9 +326,10 @@ static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
 
 static double batch_seconds(const struct truth_row *row, uint32_t frame)
 {
-    double start = cpu_seconds();
-    row->batch(row, 2, frame);
-    return cpu_seconds() - start;
+    double start = seconds_now();
+    struct batches b = {.count = 1, .spp = 2, .frame = frame, .stride = 1};
+    row->measure(row, &b);
+    return seconds_now() - start;
 }
 
 /* Pixels, a power of two, of which batches of two samples are done in time: a
@@ -342,7 +352,7 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
                              double seconds)
 {
     struct result out = {0};
-    double start = cpu_seconds();
+    double start = seconds_now();
     choose_side(row, &frame, seconds);
     bool can_walk = row->plan.space != WALK_NOWHERE &&
                     setting("WALK", 0.0) >= 0.0;
@@ -361,7 +371,7 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
     } else if (!row->walked) {
         out.picture_z = out.z;
     }
-    out.seconds = cpu_seconds() - start;
+    out.seconds = seconds_now() - start;
     return out;
 }
 

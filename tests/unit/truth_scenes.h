@@ -1,4 +1,4 @@
-/* truth_scenes.h - a scene for each table of METHODS.md, section 13: one batch
+/* truth_scenes.h - a scene for each table of METHODS.md, section 13: batches
  * of its estimate, through brume.h alone. Lengths are mean free paths. */
 #ifndef TESTS_UNIT_TRUTH_SCENES_H
 #define TESTS_UNIT_TRUTH_SCENES_H
@@ -9,14 +9,14 @@
 /* What a row of a table asks. `p` are its parameters, family by family. */
 struct truth_row {
     char name[64];
-    double (*batch)(const struct truth_row *row, int spp, uint32_t frame);
+    void (*measure)(const struct truth_row *row, struct batches *b);
     double p[4];
     double truth, u;
-    struct walk_plan plan;  /* of a walk instead of a picture              */
+    struct walk_plan plan; /* of a walk instead of a picture              */
     bool walked;
-    double rare;            /* the largest value of a sample, where most are
+    double rare; /* the largest value of a sample, where most are
                                0; or 0                                     */
-    bool sample;            /* run by `make test` too                      */
+    bool sample; /* run by `make test` too                      */
 };
 
 enum { BATCH_PIXELS = 16 };
@@ -40,41 +40,63 @@ static inline enum brume_backend batch_backend(void)
                                              : BRUME_BACKEND_CPU;
 }
 
-/* A picture's weighted sum over pixels; frees the scene. `weight` may be NULL
+/* Pictures' weighted sums over pixels; frees the scene. `weight` may be NULL
  * for the mean. */
-static inline double batch_render(brume_scene *s, int pixels, int spp,
-                                  uint32_t frame, const double *weight,
-                                  int channel)
+static inline void batch_render(brume_scene *s, int pixels, struct batches *b,
+                                const double *weight, int channel)
 {
     struct brume_options o = BRUME_OPTIONS_INIT;
-    struct brume_frame f;
-    double sum = 0.0;
     int n = pixels * pixels;
     o.width = o.height = pixels;
-    o.spp = spp;
-    o.frame = frame;
+    o.spp = b->spp;
     o.backend = batch_backend();
-    assert_true(brume_render(s, &o, &f, truth_error()));
-    assert_int_equal(f.stats.majorant_exceeded, 0);
-    assert_int_equal(f.stats.rejected, 0);
-    for (int i = 0; i < n; i++)
-        sum += (double)f.radiance[3 * i + channel] *
-               (weight ? weight[i] : 1.0 / n);
-    brume_frame_free(&f);
+    for (int k = 0; k < b->count; k++) {
+        struct brume_frame f;
+        o.frame = b->frame + b->stride * (uint32_t)k;
+        assert_true(brume_render(s, &o, &f, truth_error()));
+        assert_int_equal(f.stats.majorant_exceeded, 0);
+        assert_int_equal(f.stats.rejected, 0);
+        b->mean[k] = 0.0;
+        for (int i = 0; i < n; i++)
+            b->mean[k] += (double)f.radiance[3 * i + channel] *
+                          (weight ? weight[i] : 1.0 / n);
+        brume_frame_free(&f);
+    }
     brume_scene_free(s);
-    return sum;
 }
 
-/* The picture's mean, or that of as many paths walked together. */
-static inline double batch_measure(brume_scene *s, const struct truth_row *row,
-                                   int spp, uint32_t frame)
+/* The pictures' means, or those of as many paths walked together. */
+static inline void batch_measure(brume_scene *s, const struct truth_row *row,
+                                 struct batches *b)
 {
+    size_t side = (size_t)batch_pixels();
     if (row->walked)
-        return truth_walk(s, &row->plan,
-                          (size_t)batch_pixels() * (size_t)batch_pixels() *
-                              (size_t)spp,
-                          frame);
-    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
+        truth_walk(s, &row->plan, side * side * (size_t)b->spp,
+                   batch_backend() == BRUME_BACKEND_CUDA, b);
+    else
+        batch_render(s, batch_pixels(), b, NULL, 0);
+}
+
+static inline void batch_scale(struct batches *b, double factor, double more)
+{
+    for (int k = 0; k < b->count; k++)
+        b->mean[k] = factor * b->mean[k] + more;
+}
+
+/* Room for the i-th of n estimates of which each of these is made. */
+static inline struct batches batch_part(const struct batches *b, int i, int n)
+{
+    struct batches part = {.count = b->count, .spp = b->spp};
+    part.frame = b->frame * (uint32_t)n + (uint32_t)i;
+    part.stride = b->stride * (uint32_t)n;
+    return part;
+}
+
+static inline void batch_add(struct batches *b, const struct batches *part,
+                             double factor)
+{
+    for (int k = 0; k < b->count; k++)
+        b->mean[k] += factor * part->mean[k];
 }
 
 static inline struct brume_globals batch_globals(bool multiple)
@@ -141,18 +163,16 @@ static inline void batch_sky(brume_scene *s, float front, float back)
 }
 
 /* p: depth. */
-static inline double batch_t3(const struct truth_row *row, int spp,
-                              uint32_t frame)
+static inline void batch_t3(const struct truth_row *row, struct batches *b)
 {
     struct brume_medium m = truth_medium(0.0, 1.0, 0.0);
     brume_scene *s = batch_slab(false, row->p[0], 3000.0, &m);
     batch_beam(s, 1.0);
-    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
+    batch_render(s, batch_pixels(), b, NULL, 0);
 }
 
 /* p: mu_t, gamma in degrees, g. A black disc ends the ray. */
-static inline double batch_t4(const struct truth_row *row, int spp,
-                              uint32_t frame)
+static inline void batch_t4(const struct truth_row *row, struct batches *b)
 {
     struct brume_globals globals = BRUME_GLOBALS_INIT;
     struct brume_light l = BRUME_LIGHT_INIT;
@@ -178,7 +198,7 @@ static inline double batch_t4(const struct truth_row *row, int spp,
     disc.b[2] = 1.0;
     disc.material = brume_add_material(s, &black, truth_error());
     assert_true(brume_add_shape(s, &disc, truth_error()) >= 0);
-    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
+    batch_render(s, batch_pixels(), b, NULL, 0);
 }
 
 /* ---- T5: a point source in an infinite medium ---------------------------- */
@@ -261,8 +281,7 @@ static inline void glowing_ball(brume_scene *s, double radius, double emission)
 /* p: albedo, distance. By reciprocity the radiance at the source, alike in
  * all directions, of a shell at that distance which emits 1 per length: a
  * ball less a ball. */
-static inline double batch_t5(const struct truth_row *row, int spp,
-                              uint32_t frame)
+static inline void batch_t5(const struct truth_row *row, struct batches *b)
 {
     double a = row->p[0], r = row->p[1], half = 0.05 * r, edge = 0.0;
     struct brume_globals g = batch_globals(true);
@@ -272,8 +291,8 @@ static inline double batch_t5(const struct truth_row *row, int spp,
     glowing_ball(s, r - half, -1.0);
     if (a == 1.0)
         edge = 3.0 / (4.0 * TRUTH_PI * (T5_EDGE + 0.7104461));
-    return edge + batch_measure(s, row, spp, frame) /
-                      shell_volume(a, r, half);
+    batch_measure(s, row, b);
+    batch_scale(b, 1.0 / shell_volume(a, r, half), edge);
 }
 
 /* ---- the same with a lamp: all directions, as three faces of a cube ------ */
@@ -297,8 +316,8 @@ static inline void face_weights(double *weight)
     }
 }
 
-static inline double batch_face(const struct truth_row *row, int face, int spp,
-                                uint32_t frame)
+static inline void batch_face(const struct truth_row *row, int face,
+                              struct batches *b)
 {
     static const double toward[3][3] = {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}};
     static const double up[3][3] = {{0, 1, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -319,62 +338,59 @@ static inline double batch_face(const struct truth_row *row, int face, int spp,
     assert_true(brume_add_light(s, &l, truth_error()) >= 0);
     assert_true(brume_set_camera(s, &c, truth_error()));
     face_weights(weight);
-    return batch_render(s, FACE_PIXELS, spp, 3 * frame + (uint32_t)face, weight,
-                        0);
+    batch_render(s, FACE_PIXELS, b, weight, 0);
 }
 
 /* p: albedo, distance. What comes straight is added: a point is not seen. */
-static inline double batch_t5_lamp(const struct truth_row *row, int spp,
-                              uint32_t frame)
+static inline void batch_t5_lamp(const struct truth_row *row, struct batches *b)
 {
     double r = row->p[1];
-    double sum = exp(-r) / (4.0 * TRUTH_PI * r * r);
-    return sum + batch_face(row, 0, spp, frame) +
-           batch_face(row, 1, spp, frame) +
-           4.0 * batch_face(row, 2, spp, frame);
+    batch_scale(b, 0.0, exp(-r) / (4.0 * TRUTH_PI * r * r));
+    for (int face = 0; face < 3; face++) {
+        struct batches part = batch_part(b, face, 3);
+        batch_face(row, face, &part);
+        batch_add(b, &part, face < 2 ? 1.0 : 4.0);
+    }
 }
 
 /* ---- T6 to T9 ------------------------------------------------------------ */
 
 /* p: g, albedo, depth; 1: reflectance. By reciprocity the share of a sky on
  * one side that comes back to the eye. */
-static inline double batch_t6(const struct truth_row *row, int spp,
-                              uint32_t frame)
+static inline void batch_t6(const struct truth_row *row, struct batches *b)
 {
     struct brume_medium m = truth_medium(1.0 - row->p[1], row->p[1], row->p[0]);
     brume_scene *s = batch_slab(true, row->p[2], slab_width(row->p[2]), &m);
     bool reflected = row->p[3] != 0.0;
     batch_sky(s, reflected ? 1.0f : 0.0f, reflected ? 0.0f : 1.0f);
-    return batch_measure(s, row, spp, frame);
+    batch_measure(s, row, b);
 }
 
 /* p: out cosine, in cosine, < 0: from behind. */
-static inline double batch_t6_radiance(const struct truth_row *row, int spp,
-                                       uint32_t frame)
+static inline void batch_t6_radiance(const struct truth_row *row,
+                                     struct batches *b)
 {
     struct brume_medium m = truth_medium(0.1, 0.9, 0.0);
     brume_scene *s = batch_slab(true, 1.0, slab_width(1.0), &m);
     batch_tilt(s, row->p[0]);
     batch_beam(s, row->p[1]);
-    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
+    batch_render(s, batch_pixels(), b, NULL, 0);
 }
 
 /* p: cosine. */
-static inline double batch_t7_slab(const struct truth_row *row, int spp,
-                                   uint32_t frame)
+static inline void batch_t7_slab(const struct truth_row *row, struct batches *b)
 {
     struct brume_medium m = truth_medium(0.1, 0.9, 0.0);
     for (int i = 0; i < 3; i++)
         m.emission[i] = m.absorption[i];
     brume_scene *s = batch_slab(true, 2.0, slab_width(2.0), &m);
     batch_tilt(s, row->p[0]);
-    return batch_render(s, batch_pixels(), spp, frame, NULL, 0);
+    batch_render(s, batch_pixels(), b, NULL, 0);
 }
 
 /* p: optical radius, albedo. The power that leaves an emitting ball is 4 pi
  * times the integral of its picture. */
-static inline double batch_ball(const struct truth_row *row, int spp,
-                                uint32_t frame)
+static inline void batch_ball(const struct truth_row *row, struct batches *b)
 {
     double r = row->p[0], albedo = row->p[1];
     struct brume_medium m = truth_medium(1.0 - albedo, albedo, 0.0);
@@ -390,8 +406,8 @@ static inline double batch_ball(const struct truth_row *row, int spp,
     assert_true(brume_set_camera(s, &c, truth_error()));
     ball.radius = r;
     truth_fill(s, ball, &m);
-    return batch_render(s, 2 * batch_pixels(), spp, frame, NULL, 0) * 3.0 /
-           (TRUTH_PI * r);
+    batch_render(s, 2 * batch_pixels(), b, NULL, 0);
+    batch_scale(b, 3.0 / (TRUTH_PI * r), 0.0);
 }
 
 /* A slab that stands for the half-space of this albedo; for albedo 1 the rows
@@ -424,54 +440,53 @@ static inline double passed_radiance(double h, double cosine)
 
 /* p: albedo, cosine in and out, H for albedo 1, or 0: radiance per E,
  * a H^2 / (8 pi). */
-static inline double batch_t8_h(const struct truth_row *row, int spp,
-                                uint32_t frame)
+static inline void batch_t8_h(const struct truth_row *row, struct batches *b)
 {
     brume_scene *s = half_space(row->p[0]);
     batch_tilt(s, row->p[1]);
     batch_beam(s, row->p[1]);
-    return passed_radiance(row->p[2], row->p[1]) +
-           batch_measure(s, row, spp, frame);
+    batch_measure(s, row, b);
+    batch_scale(b, 1.0, passed_radiance(row->p[2], row->p[1]));
 }
 
 /* p: albedo, cosine, H for albedo 1, or 0: plane albedo, by reciprocity under
  * a sky of 1. */
-static inline double batch_t8_plane(const struct truth_row *row, int spp,
-                                    uint32_t frame)
+static inline void batch_t8_plane(const struct truth_row *row,
+                                  struct batches *b)
 {
     brume_scene *s = half_space(row->p[0]);
     batch_tilt(s, row->p[1]);
     batch_sky(s, 1.0f, 0.0f);
-    return passed_share(row->p[2]) + batch_measure(s, row, spp, frame);
+    batch_measure(s, row, b);
+    batch_scale(b, 1.0, passed_share(row->p[2]));
 }
 
 /* p: albedo, -, the H of the mean, or 0: the mean of the plane albedo over
  * cosine^2, by Gauss's rule. */
-static inline double batch_t8_sphere(const struct truth_row *row, int spp,
-                                     uint32_t frame)
+static inline void batch_t8_sphere(const struct truth_row *row,
+                                   struct batches *b)
 {
     static const double node[4] = {0.183434642495650, 0.525532409916329,
                                    0.796666477413627, 0.960289856497536};
     static const double weight[4] = {0.362683783378362, 0.313706645877887,
                                      0.222381034453374, 0.101228536290376};
-    double sum = 0.0;
+    batch_scale(b, 0.0, 0.0);
     for (int i = 0; i < 8; i++) {
         double x = i < 4 ? node[i] : -node[i - 4], mu = 0.5 * (1.0 + x);
         struct truth_row at = *row;
+        struct batches part = batch_part(b, i, 8);
         at.p[1] = at.plan.cosine = mu;
-        sum += weight[i % 4] * mu *
-               batch_t8_plane(&at, spp, 8 * frame + (uint32_t)i);
+        batch_t8_plane(&at, &part);
+        batch_add(b, &part, weight[i % 4] * mu);
     }
-    return sum;
 }
 
 /* p: kelvin, channel, or 3 for luminance over that at 6500 K. A fire without
  * absorption, one length deep. */
-static inline double batch_t13(const struct truth_row *row, int spp,
-                               uint32_t frame)
+static inline void batch_t13(const struct truth_row *row, struct batches *b)
 {
     static const double luma[3] = {0.2126390, 0.7151687, 0.0721923};
-    double rgb[3], luminance = 0.0;
+    struct batches rgb[3] = {*b, *b, *b};
     for (int c = 0; c < 3; c++) {
         struct brume_globals g = BRUME_GLOBALS_INIT;
         brume_scene *s = truth_scene(&g, 2.0, 1e-6);
@@ -482,10 +497,15 @@ static inline double batch_t13(const struct truth_row *row, int spp,
         m.fire.kelvin_scale = row->p[0];
         m.fire.reference = 6500.0;
         truth_fill(s, truth_box(10.0, 0.0, 1.0), &m);
-        rgb[c] = batch_render(s, 1, spp, frame, NULL, c);
-        luminance += luma[c] * rgb[c];
+        batch_render(s, 1, &rgb[c], NULL, c);
     }
-    return row->p[1] == 3.0 ? luminance : rgb[(int)row->p[1]] / luminance;
+    for (int k = 0; k < b->count; k++) {
+        double luminance = 0.0;
+        for (int c = 0; c < 3; c++)
+            luminance += luma[c] * rgb[c].mean[k];
+        b->mean[k] = row->p[1] == 3.0 ? luminance
+                                      : rgb[(int)row->p[1]].mean[k] / luminance;
+    }
 }
 
 #endif
