@@ -258,12 +258,16 @@ bool generation(crowd *c, brume_error *err)
                         "a walk", err);
 }
 
-/* The pass-th n paths of each batch; their sums are added up on the device. */
+/* The pass-th n paths of each batch; their sums are added up on the device.
+ * Few take as long as many: of the last, which bring little, ever fewer are
+ * kept. */
 bool walk_part(crowd *c, uint32_t pass, uint32_t n, brume_error *err)
 {
+    uint32_t all = n * static_cast<uint32_t>(c->batches);
+    double share = c->w.share;
     c->w.pass = pass;
     c->w.generation = 0;
-    c->count = n * static_cast<uint32_t>(c->batches);
+    c->count = all;
     begin<<<blocks_for(c->count + 1), THREADS>>>(*c, n);
     while (c->count > 0) {
         if (!generation(c, err))
@@ -271,7 +275,9 @@ bool walk_part(crowd *c, uint32_t pass, uint32_t n, brume_error *err)
         if (c->count > c->room)
             return brume_fail(err, BRUME_ERR_DEVICE,
                               "paths of a walk have no room: %u", c->count);
+        c->w.share *= c->count < all / 64 ? 1.01 : 1.0;
     }
+    c->w.share = share;
     return true;
 }
 

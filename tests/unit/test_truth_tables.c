@@ -10,6 +10,7 @@
  * row's scene is walked through (truth_walk.h), if it may be; WALK=1 does so
  * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
  * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
+ * With FIRST_SECONDS none is drawn whose smallest pictures would take longer.
  * BACKEND=cuda draws the pictures and walks on a GPU, and seconds are the
  * clock's; PIXELS=512 makes pictures larger than 16 x 16, as far as all batches
  * of a row are done in time.
@@ -17,9 +18,11 @@
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
  * it has, if that is told well (KNOWN_ERROR). */
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 #include "tests/unit/truth_scenes.h"
 #include "tests/unit/truth_tables.h"
 
@@ -315,7 +318,7 @@ static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
         double used = seconds_now() - before;
         double rare = unseen(row, out->spp);
         out->reached = fmax(out->error, rare) <= target;
-        double more = 1.1 * (out->error / target) * (out->error / target);
+        double more = 1.25 * (out->error / target) * (out->error / target);
         more = fmax(more, 1.1 * rare / target);
         double fits = (seconds - (seconds_now() - start)) / used;
         if (out->reached || fits < 1.5 || (gives_up && more > fits))
@@ -333,9 +336,10 @@ static double batch_seconds(const struct truth_row *row, uint32_t frame)
 }
 
 /* Pixels, a power of two, of which batches of two samples are done in time: a
- * part of their time goes with the pixels, the other is that of few. */
-static void choose_side(const struct truth_row *row, uint32_t *frame,
-                        double seconds)
+ * part of their time goes with the pixels, the other is that of few. The
+ * seconds that the fewest take. */
+static double choose_side(const struct truth_row *row, uint32_t *frame,
+                          double seconds)
 {
     int most = (int)setting("PIXELS", BATCH_PIXELS);
     double few = 0.0;
@@ -346,6 +350,7 @@ static void choose_side(const struct truth_row *row, uint32_t *frame,
         if ((few + 4.0 * (used - few)) * BATCHES > seconds)
             break;
     }
+    return few * BATCHES;
 }
 
 static struct result run_row(struct truth_row *row, uint32_t frame,
@@ -353,10 +358,11 @@ static struct result run_row(struct truth_row *row, uint32_t frame,
 {
     struct result out = {0};
     double start = seconds_now();
-    choose_side(row, &frame, seconds);
+    double least = choose_side(row, &frame, seconds);
     bool can_walk = row->plan.space != WALK_NOWHERE &&
                     setting("WALK", 0.0) >= 0.0;
-    row->walked = can_walk && setting("WALK", 0.0) > 0.0;
+    row->walked = can_walk && (setting("WALK", 0.0) > 0.0 ||
+                               least > setting("FIRST_SECONDS", INFINITY));
     if (!row->walked)
         run_so(row, &frame,
                can_walk ? fmin(seconds, setting("PICTURE_SECONDS", 2.0))
@@ -381,13 +387,22 @@ static uint32_t first_frame(int row)
     return (uint32_t)setting("SEED", 0.0) * 100003u + ((uint32_t)row << 20);
 }
 
-/* Of SHARD=I/N in the environment: every N-th row from the I-th, from 0. */
-static bool in_shard(int row)
+/* Of so many rows, or -1. Processes that share a file take from it, and so none
+ * waits for another: from the last on, which take longest (QUEUE=file). */
+static int next_row(int count)
 {
-    int i = 0, n = 1;
-    const char *shard = getenv("SHARD");
-    return !shard || sscanf(shard, "%d/%d", &i, &n) != 2 || n < 1 ||
-           row % n == i;
+    static int next;
+    const char *name = getenv("QUEUE");
+    if (!name)
+        return next < count ? next++ : -1;
+    int file = open(name, O_RDWR | O_CREAT, 0600), taken = 0, after;
+    assert_true(file >= 0 && lockf(file, F_LOCK, 0) == 0);
+    bool begun = pread(file, &taken, sizeof taken, 0) == sizeof taken;
+    taken = begun ? taken : 0;
+    after = taken + 1;
+    assert_true(pwrite(file, &after, sizeof after, 0) == sizeof after);
+    close(file);
+    return taken < count ? count - 1 - taken : -1;
 }
 
 static bool asked(const char *name, int count, char **words)
@@ -435,10 +450,8 @@ int main(int argc, char **argv)
         printf("| row | truth | mean | SE / truth | z | z of its picture | "
                "CPU s | by |\n"
                "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    for (int i = 0; i < count; i++) {
+    for (int i; (i = next_row(count)) >= 0;) {
         if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
-            continue;
-        if (!in_shard(i))
             continue;
         struct result r = run_row(&rows[i], first_frame(i), seconds);
         report(&rows[i], &r, table);
