@@ -9,10 +9,11 @@
 namespace
 {
 
-/* Paths of a launch, at most: few enough for the memory and for a stop to be
- * heard within a second or so, many enough that threads find work when their
- * first paths end. */
+/* Paths of a launch, at most: few enough for a stop to be heard within a second
+ * or so, many enough that threads find work when their first paths end. They
+ * take 160 bytes each: so few, where memory is short. */
 const size_t most_paths = 1u << 22;
+const size_t few_paths = 1u << 18;
 
 /* From the leanest to the one that can do all. */
 const sample_stage *const kernels[] = {&sample_gray, &sample_media,
@@ -78,11 +79,12 @@ uint32_t samples_per_launch(const cuda_state *s)
 
 /* Rows of the film whose paths, so many a pixel, are of one launch; the
  * launches of all rows are about as large. */
-int path_rows(const film *f, uint32_t samples)
+int path_rows(const cuda_state *s, uint32_t samples)
 {
+    const film *f = s->frame.film;
     size_t all = static_cast<size_t>(f->y1 - f->y0);
     size_t row = static_cast<size_t>(f->x1 - f->x0) * samples;
-    size_t most = row > 0 && row < most_paths ? most_paths / row : 1;
+    size_t most = row > 0 && row < s->most_paths ? s->most_paths / row : 1;
     size_t parts = (all + most - 1) / most;
     return static_cast<int>(parts > 0 ? (all + parts - 1) / parts : 1);
 }
@@ -93,7 +95,7 @@ size_t paths_at_once(const cuda_state *s)
     const film *f = s->frame.film;
     size_t most = 0;
     for (uint32_t i = 1; i <= samples_per_launch(s); i++) {
-        size_t paths = static_cast<size_t>(path_rows(f, i)) *
+        size_t paths = static_cast<size_t>(path_rows(s, i)) *
                        static_cast<size_t>(f->x1 - f->x0) * i;
         most = paths > most ? paths : most;
     }
@@ -296,7 +298,7 @@ bool open_device(cuda_state *s, brume_error *err)
 void launch_paths(const cuda_state *s)
 {
     sample_job part = s->job;
-    int rows = path_rows(s->frame.film, part.samples);
+    int rows = path_rows(s, part.samples);
     int wide = part.x1 - part.x0;
     for (int y = s->job.y0; y < s->job.y1; y += rows) {
         part.y0 = y;
@@ -319,7 +321,7 @@ bool sample_warm(cuda_state *s, brume_error *err)
     return device_check(cudaDeviceSynchronize(), "opening", err);
 }
 
-void *try_open(const backend_frame *frame, brume_error *err)
+void *try_open(const backend_frame *frame, size_t paths, brume_error *err)
 {
     cuda_state *s = new (std::nothrow) cuda_state();
     if (!s) {
@@ -328,6 +330,7 @@ void *try_open(const backend_frame *frame, brume_error *err)
     }
     device_keep_memory();
     s->frame = *frame;
+    s->most_paths = paths;
     s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
     s->stage = choose(kernels, frame->stages->needs & ~MAY_TINTS);
@@ -346,15 +349,16 @@ void *try_open(const backend_frame *frame, brume_error *err)
     return nullptr;
 }
 
-/* Again with nothing of other frames, where there is no room. */
+/* Again with nothing of other frames and fewer paths at a time, where there is
+ * no room. */
 void *cuda_open(const backend_frame *frame, brume_error *err)
 {
-    void *state = try_open(frame, err);
-    if (state || err->code != BRUME_ERR_MEMORY ||
-        !resident_empty(resident_of(frame->options->still)))
+    void *state = try_open(frame, most_paths, err);
+    if (state || err->code != BRUME_ERR_MEMORY)
         return state;
+    resident_empty(resident_of(frame->options->still));
     *err = {};
-    return try_open(frame, err);
+    return try_open(frame, few_paths, err);
 }
 
 /* Hands over the times since this was done last. */

@@ -30,6 +30,7 @@ struct cuda_state {
     void *rings;                /* of the last photons                     */
     uint64_t *cell_list;        /* room for all; NULL where none is made   */
     cell_queue *cell_queue;
+    size_t most_paths;          /* of a launch                             */
     int processors, trace_threads;
     bool one_color;             /* the channels' sums are alike, and those of
                                the first are all that is traced            */

@@ -7,6 +7,7 @@ bool device_check(cudaError_t code, const char *stage, struct brume_error *err)
 {
     if (code == cudaSuccess)
         return true;
+    cudaGetLastError(); /* told once: what is tried next may do well */
     return brume_fail(
         err,
         code == cudaErrorMemoryAllocation ? BRUME_ERR_MEMORY : BRUME_ERR_DEVICE,

@@ -284,12 +284,10 @@ void resident_end(resident_set *set, int before)
         drop(set, before);
 }
 
-bool resident_empty(resident_set *set)
+void resident_empty(resident_set *set)
 {
-    bool any = set && set->first;
-    if (any)
+    if (set)
         drop(set, -1);
-    return any;
 }
 
 bool resident_hash(const resident_set *set, const void *device, uint64_t *hash)

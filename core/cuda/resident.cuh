@@ -28,8 +28,8 @@ void resident_begin(resident_set *set, uploader *to, int threads);
 const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err);
 void resident_end(resident_set *set, int before);
-/* All go, between frames; false: there was none. */
-bool resident_empty(resident_set *set);
+/* All go, between frames. */
+void resident_empty(resident_set *set);
 
 /* What there is to tell of memory that the device fills itself. */
 struct resident_note {

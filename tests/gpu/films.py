@@ -7,6 +7,7 @@ import os
 import random
 import signal
 import subprocess
+import sys
 import time
 
 FOG = """#version 3.7;
@@ -25,6 +26,25 @@ object { Land pigment { rgb 0.6 } }
 object { Land scale 0.3 rotate 90 * clock * y translate y
     pigment { rgb 0.9 } }
 """
+# Takes all of a GPU's memory but so many MiB; waits for its input to end.
+HOLD = """import ctypes, sys
+cuda = ctypes.CDLL("libcuda.so.1")
+context, at = ctypes.c_void_p(), ctypes.c_uint64()
+free, all = ctypes.c_size_t(), ctypes.c_size_t()
+def check(code):
+    if code:
+        sys.exit(f"the driver failed: {code}")
+check(cuda.cuInit(0))
+check(cuda.cuDevicePrimaryCtxRetain(ctypes.byref(context), 0))
+check(cuda.cuCtxSetCurrent(context))
+check(cuda.cuMemGetInfo_v2(ctypes.byref(free), ctypes.byref(all)))
+left = int(sys.argv[1]) << 20
+check(cuda.cuMemAlloc_v2(ctypes.byref(at),
+                         ctypes.c_size_t(max(free.value - left, 1 << 20))))
+print("held", flush=True)
+sys.stdin.read()
+"""
+LEFT = (2000, 1200, 1000, 800, 600, 400)     # MiB
 FRAMES = 4
 DEALT = 12     # frames of films that two GPUs share
 
@@ -243,6 +263,41 @@ def memory_row(films):
             "passed": taken[0] > 0 and max(taken[2:]) == 0}
 
 
+def full_row(films, scene, left, words):
+    """A film where others left so many MiB: the same bytes, by launches of fewer
+    paths or by the CPU."""
+    films.forget("part")
+    hold = subprocess.Popen([sys.executable, "-c", HOLD, str(left)], text=True,
+                            stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    held = hold.stdout.readline() == "held\n"
+    try:
+        seconds, frames = films.finish(scene, "part", "--backend", "auto",
+                                       *words)
+    finally:
+        hold.communicate()
+    good, count = films.same("part", "whole")
+    return {"what": f"{left} MiB left", "how": frames[-1]["backend"],
+            "seconds": round(seconds, 2), "same": f"{good} of {count}",
+            "first": round(frames[0]["allocated"] / 2**20, 1),
+            "passed": held and good == count == FRAMES}
+
+
+def full_rows(films):
+    """Meshes that stay on the device from frame to frame, and more paths than a
+    launch has; of the rows with less memory one is still the GPU's."""
+    words = [f"+KFF{FRAMES}", "+W1024", "+H768", "--spp", "8", "--integrator",
+             "path"]
+    scene = films.scene("meshes", MESHES)
+    films.forget("whole")
+    _, frames = films.finish(scene, "whole", *words)
+    whole = round(frames[0]["allocated"] / 2**20, 1)
+    out = [full_row(films, scene, left, words) for left in LEFT]
+    fewer = any(row["how"] == "cuda" and row["first"] < 0.7 * whole
+                for row in out)
+    return out + [{"what": "all memory, then fewer paths at a time",
+                   "how": "path", "first": whole, "passed": fewer}]
+
+
 def devices():
     """GPUs of this machine."""
     said = subprocess.run(["nvidia-smi", "-L"], capture_output=True, text=True)
@@ -294,6 +349,7 @@ def rows(brume, room, bench):
         out += filter_rows(films)
     out.append(upload_row(films))
     out.append(memory_row(films))
+    out += full_rows(films)
     out += deal_rows(films)
     return [{key: row.get(key, "") for key in
              ("what", "how", "seconds", "one", "codes", "worst ms", "kept", "same",
