@@ -54,13 +54,12 @@ static const struct backend *choose_backend(const struct brume_options *o,
     return NULL;
 }
 
-void frame_use_device(int device)
+void frame_use_device(const struct brume_options *options, int device)
 {
-    char why[256];
-    if (device > 0 && backend_cuda.use &&
-        backend_cuda.available(why, sizeof why) &&
-        device < backend_cuda.devices())
-        backend_cuda.use(device);
+    struct brume_error none = {0};
+    const struct backend *b = choose_backend(options, &none);
+    if (b && b->use && device < b->devices())
+        b->use(device);
 }
 
 int brume_film_devices(const struct brume_options *options, char *why,

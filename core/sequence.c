@@ -71,6 +71,7 @@ struct brume_film {
     struct worker *worker;
     int workers, wanted;
     bool serial; /* a worker has one thread                      */
+    struct brume_options first; /* of the first frame: which backend      */
     struct shots shots;
     pthread_mutex_t lock; /* of what follows, up to `stop`                */
     pthread_cond_t work, news;
@@ -297,7 +298,7 @@ static void *run_worker(void *context)
         lanes++;
     for (int i = lanes; i < LANES; i++)
         first->steps |= steps[i];
-    frame_use_device(worker->number);
+    frame_use_device(&worker->film->first, worker->number);
     work(first);
     for (int i = 1; i < lanes; i++)
         pthread_join(worker->lane[i].thread, NULL);
@@ -322,11 +323,14 @@ static bool start_one(struct brume_film *film, struct brume_error *err)
 }
 
 /* Signals are for the caller's thread. */
-static bool start(struct brume_film *film, bool serial, struct brume_error *err)
+static bool start(struct brume_film *film, const struct brume_options *first,
+                  struct brume_error *err)
 {
     sigset_t all, before;
     int count = film->wanted;
-    film->serial = serial;
+    /* A limit is to hold whichever thread is how far. */
+    film->serial = first->threads == 1 || first->memory > 0;
+    film->first = *first;
     film->worker = memory_new((size_t)count, sizeof *film->worker, err);
     bool good = film->worker;
     sigfillset(&all);
@@ -452,9 +456,7 @@ bool brume_film_push(struct brume_film *film, brume_scene *scene,
 {
     struct task *task = memory_new(1, sizeof *task, err);
     struct shot *shot = memory_new(1, sizeof *shot, err);
-    /* A limit is to hold whichever thread is how far. */
-    bool serial = options->threads == 1 || options->memory > 0;
-    if (!task || !shot || (film->workers == 0 && !start(film, serial, err))) {
+    if (!task || !shot || (film->workers == 0 && !start(film, options, err))) {
         brume_scene_free(scene);
         free(task);
         free(shot);
