@@ -271,8 +271,8 @@ def full_row(films, scene, left, words):
                             stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     held = hold.stdout.readline() == "held\n"
     try:
-        seconds, frames = films.finish(scene, "part", "--backend", "auto",
-                                       *words)
+        seconds, frames = films.finish(scene, "part",
+                                       ["--backend", "auto", *words])
     finally:
         hold.communicate()
     good, count = films.same("part", "whole")
@@ -289,7 +289,7 @@ def full_rows(films):
              "path"]
     scene = films.scene("meshes", MESHES)
     films.forget("whole")
-    _, frames = films.finish(scene, "whole", *words)
+    _, frames = films.finish(scene, "whole", words)
     whole = round(frames[0]["allocated"] / 2**20, 1)
     out = [full_row(films, scene, left, words) for left in LEFT]
     fewer = any(row["how"] == "cuda" and row["first"] < 0.7 * whole

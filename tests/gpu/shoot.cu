@@ -151,11 +151,6 @@ void shoot_free(shoot *s)
     delete s;
 }
 
-const flat_scene *shoot_scene(const shoot *s)
-{
-    return &s->scene;
-}
-
 bool shoot_build(shoot *s, shoot_tree tree, int places, int times,
                  double *milliseconds, bool *even, brume_error *err)
 {

@@ -15,8 +15,6 @@ enum shoot_tree { SHOOT_BVH, SHOOT_KD };
 struct shoot;
 struct shoot *shoot_new(const struct flat *flat, struct brume_error *err);
 void shoot_free(struct shoot *s);
-/* As kernels are given it. */
-const flat_scene *shoot_scene(const struct shoot *s);
 
 /* Builds a tree over all its triangles, so many times, and takes the median of
  * the milliseconds; it is the scene's from now on. Of a BVH a

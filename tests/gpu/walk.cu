@@ -1,13 +1,14 @@
 /* The walks of tests/unit/truth_walk.h: the paths of all batches side by side,
- * sorted by batch and place. Sums are in a fixed order, those by which paths
- * are split are of whole numbers. */
+ * sorted by batch and place; the last few of a batch by a block. Sums are in a
+ * fixed order, those by which paths are split are of whole numbers. Each call
+ * has a stream of its own, so that several can be at work. */
 #define SCENE_MAY (MAY_EMISSION | MAY_SKY | MAY_MANY | MAY_CLEAR)
-#include "tests/unit/truth_step.h"
-#include "core/cuda/device.cuh"
-#include "tests/gpu/shoot.h"
 #include "tests/gpu/walk.h"
+#include "core/cuda/device.cuh"
+#include "tests/unit/truth_step.h"
 #define CCCL_DISABLE_NVTX
 #include <cub/block/block_reduce.cuh>
+#include <cub/block/block_scan.cuh>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 #include <vector>
@@ -20,7 +21,9 @@ enum {
     SLICES = 32,     /* of a batch's sum                            */
     PLACE_BITS = 16, /* of walk_key                                 */
     MOST = 1 << 23,  /* paths at the start of a part                */
-    GROWTH = 4       /* of which so many times as many have room    */
+    GROWTH = 4,      /* of which so many times as many have room    */
+    LAST = 256,      /* paths of a batch that a block takes over    */
+    LAST_ROOM = 4096
 };
 
 /* What is on the device of a walk. */
@@ -35,10 +38,13 @@ struct crowd {
     uint64_t *share; /* of usual walkers, in 2^-32, then their sums */
     uint32_t *copies, *place;
     uint32_t *first; /* of each batch, and how many in all          */
-    uint32_t *exceeded;
+    uint32_t *fault; /* counts of FAULTS                            */
     void *scratch;
     size_t scratch_bytes;
+    cudaStream_t stream;
 };
+
+enum { EXCEEDED, OVERFLOWED, FAULTS };
 
 /* ---- kernels ------------------------------------------------------------- */
 
@@ -62,23 +68,33 @@ __device__ uint32_t key_of(const crowd &c, const walker &a, bool goes_on)
            walk_key(&c.w, &a, x, c.first[batch + 1] - c.first[batch]);
 }
 
+/* The i-th of its batch makes a step; false if it was its last. */
+__device__ bool advance(const crowd &c, const walk *w, walker *a, uint32_t i,
+                        double *seen)
+{
+    walk_path p = {};
+    p.w = w;
+    p.scene = &c.scene;
+    p.a = *a;
+    walk_shift(&p);
+    bool goes_on = walk_step(&p, a, i);
+    *a = p.a;
+    *seen = p.seen;
+    if (p.counters.majorant_exceeded)
+        atomicAdd(&c.fault[EXCEEDED], 1u);
+    return goes_on;
+}
+
 __global__ void __launch_bounds__(THREADS) step(const __grid_constant__ crowd c)
 {
     uint32_t i = blockIdx.x * THREADS + threadIdx.x;
     if (i >= c.count)
         return;
-    walk_path p = {};
-    p.w = &c.w;
-    p.scene = &c.scene;
-    p.a = c.now[i];
-    walk_shift(&p);
-    bool goes_on = walk_step(&p, &c.now[i], i - c.first[p.a.batch]);
-    c.now[i] = p.a;
-    c.seen[i] = p.seen;
-    c.key[0][i] = key_of(c, p.a, goes_on);
+    walker a = c.now[i];
+    bool goes_on = advance(c, &c.w, &a, i - c.first[a.batch], &c.seen[i]);
+    c.now[i] = a;
+    c.key[0][i] = key_of(c, a, goes_on);
     c.order[0][i] = i;
-    if (p.counters.majorant_exceeded)
-        atomicAdd(c.exceeded, 1u);
 }
 
 /* A block adds up a slice of what a batch's paths brought. */
@@ -96,6 +112,28 @@ __global__ void add_seen(const __grid_constant__ crowd c)
         c.sum[blockIdx.y * SLICES + blockIdx.x] += sum;
 }
 
+/* The share of a path that is split or ended, for which its weight is that of
+ * each copy from now on; 0: it is left as it is. */
+__device__ uint64_t split(const crowd &c, walker *a)
+{
+    double share = 0.0;
+    if (!walk_is_split(&c.w, a, &share))
+        return 0;
+    uint64_t whole = static_cast<uint64_t>(fmin(share, 0x1p20) * 0x1p32) + 1;
+    a->weight /= static_cast<double>(whole) * 0x1p-32;
+    return whole;
+}
+
+/* Copies of one, by the sum of the shares with its own and of those before. */
+__device__ uint32_t copies_of(const walk *w, int batch, uint64_t sum,
+                              uint64_t share)
+{
+    rng r = walk_random(w, batch, 13, 0);
+    uint64_t due = rng_u32(&r);
+    return static_cast<uint32_t>((sum + due) >> 32) -
+           static_cast<uint32_t>((sum - share + due) >> 32);
+}
+
 /* Into `next`, sorted, with the weight of each copy. */
 __global__ void judge(const __grid_constant__ crowd c)
 {
@@ -105,15 +143,9 @@ __global__ void judge(const __grid_constant__ crowd c)
     walker a = c.now[c.order[0][i]];
     a.key = c.key[0][i];
     bool goes_on = a.key >> PLACE_BITS < static_cast<uint32_t>(c.batches);
-    double share = 0.0;
-    uint64_t whole = 0;
-    if (goes_on && walk_is_split(&c.w, &a, &share)) {
-        whole = static_cast<uint64_t>(fmin(share, 0x1p20) * 0x1p32) + 1;
-        a.weight /= static_cast<double>(whole) * 0x1p-32;
-    }
+    c.share[i] = goes_on ? split(c, &a) : 0;
+    c.copies[i] = goes_on && c.share[i] == 0;
     c.next[i] = a;
-    c.share[i] = whole;
-    c.copies[i] = goes_on && whole == 0;
 }
 
 __global__ void count_copies(const __grid_constant__ crowd c)
@@ -121,13 +153,9 @@ __global__ void count_copies(const __grid_constant__ crowd c)
     uint32_t i = blockIdx.x * THREADS + threadIdx.x;
     if (i >= c.count)
         return;
-    uint64_t sum = c.share[i], before = i ? c.share[i - 1] : 0;
-    if (sum == before)
-        return;
-    rng r = walk_random(&c.w, c.next[i].batch, 13, 0);
-    uint64_t due = rng_u32(&r);
-    c.copies[i] = static_cast<uint32_t>((sum + due) >> 32) -
-                  static_cast<uint32_t>((before + due) >> 32);
+    uint64_t share = c.share[i] - (i ? c.share[i - 1] : 0);
+    if (share > 0)
+        c.copies[i] = copies_of(&c.w, c.next[i].batch, c.share[i], share);
 }
 
 /* A path tells where the batches that begin with it lie; the last one, those
@@ -150,7 +178,84 @@ __global__ void copy(const __grid_constant__ crowd c)
         c.now[at] = a;
 }
 
-/* ---- a walk -------------------------------------------------------------- */
+/* ---- the last paths ------------------------------------------------------ */
+
+/* A block has those of a batch, in the order they came in: to sort them would
+ * spare no noise that counts. */
+struct last_paths {
+    typedef cub::BlockScan<uint64_t, THREADS> shares;
+    typedef cub::BlockScan<uint32_t, THREADS> copies;
+    union {
+        typename shares::TempStorage share;
+        typename copies::TempStorage copy;
+        typename cub::BlockReduce<double, THREADS>::TempStorage sum;
+    } room;
+};
+
+/* A path for each thread from `i` on: a step, then its copies behind the *kept
+ * of `to`. *shares is the sum of those before. What its line saw. */
+__device__ double last_step(const crowd &c, const walk *w, last_paths *l,
+                            const walker *from, uint32_t count, uint32_t i,
+                            walker *to, uint32_t *kept, uint64_t *shares)
+{
+    walker a;
+    double seen = 0.0;
+    uint64_t share = 0, sum = 0, all = 0;
+    uint32_t copies = 0, place = 0, added = 0;
+    if (i < count) {
+        a = from[i];
+        if (advance(c, w, &a, i, &seen)) {
+            share = split(c, &a);
+            copies = share == 0;
+        }
+    }
+    last_paths::shares(l->room.share).InclusiveSum(share, sum, all);
+    __syncthreads();
+    if (share > 0) {
+        walk next = *w;
+        next.generation++;
+        copies = copies_of(&next, a.batch, *shares + sum, share);
+    }
+    last_paths::copies(l->room.copy).ExclusiveSum(copies, place, added);
+    __syncthreads();
+    for (uint32_t k = *kept + place; copies > 0; k++, copies--)
+        if (k < LAST_ROOM)
+            to[k] = a;
+    *kept += added;
+    *shares += all;
+    return seen;
+}
+
+/* All generations of what is left of a batch. */
+__global__ void __launch_bounds__(THREADS)
+    finish(const __grid_constant__ crowd c)
+{
+    __shared__ last_paths l;
+    uint32_t b = blockIdx.x, count = c.first[b + 1] - c.first[b];
+    const walker *from = c.now + c.first[b];
+    walker *to = c.next + 2 * b * LAST_ROOM, *other = to + LAST_ROOM;
+    double seen = 0.0;
+    for (walk w = c.w; count > 0; w.generation++) {
+        uint32_t kept = 0;
+        uint64_t shares = 0;
+        for (uint32_t i = threadIdx.x; i - threadIdx.x < count; i += THREADS)
+            seen += last_step(c, &w, &l, from, count, i, to, &kept, &shares);
+        if (kept > LAST_ROOM) {
+            atomicAdd(&c.fault[OVERFLOWED], 1u);
+            return;
+        }
+        __syncthreads();
+        count = kept;
+        from = to;
+        to = other;
+        other = const_cast<walker *>(from);
+    }
+    seen = cub::BlockReduce<double, THREADS>(l.room.sum).Sum(seen);
+    if (threadIdx.x == 0)
+        c.sum[b * SLICES] += seen;
+}
+
+/* ---- memory -------------------------------------------------------------- */
 
 size_t scratch_bytes_of(uint32_t room)
 {
@@ -170,7 +275,8 @@ template <typename type> type *take(device_arena *arena, size_t count)
     return static_cast<type *>(device_take(arena, count * sizeof(type)));
 }
 
-void lay_out(crowd *c, device_arena *arena)
+/* Where all lies; what it takes, where the arena has no memory yet. */
+size_t lay_out(crowd *c, device_arena *arena)
 {
     size_t room = c->room, entries = walk_entries(&c->w.map);
     c->now = take<walker>(arena, room);
@@ -185,37 +291,75 @@ void lay_out(crowd *c, device_arena *arena)
     c->place = take<uint32_t>(arena, room);
     c->first = take<uint32_t>(arena, c->batches + 1);
     c->sum = take<double>(arena, c->batches * SLICES);
-    c->exceeded = take<uint32_t>(arena, 1);
+    c->fault = take<uint32_t>(arena, FAULTS);
     c->scratch = take<char>(arena, c->scratch_bytes);
     c->w.map.due = take<double>(arena, entries);
     c->w.map.ahead = take<double>(arena, entries);
+#define X(type, name) c->scene.name = take<type>(arena, c->scene.name##_count);
+    SCENE_ARRAYS(X)
+#undef X
+    return arena->used;
 }
 
-bool set_up(crowd *c, const walk *w, device_arena *arena, brume_error *err)
+template <typename type>
+bool send(const crowd *c, const type *to, const type *from, size_t count,
+          brume_error *err)
 {
-    size_t entries = walk_entries(&w->map), bytes = entries * sizeof(double);
-    size_t each = 2 * sizeof(walker) + 48, parts = 20 * 256;
-    c->w = *w;
-    c->scratch_bytes = scratch_bytes_of(c->room);
-    if (!device_arena_new(arena,
-                          c->room * each + c->scratch_bytes + 2 * bytes +
-                              c->batches * (SLICES + 1) * sizeof(double) +
-                              parts,
-                          err))
-        return false;
-    lay_out(c, arena);
-    return device_check(cudaMemcpy(c->w.map.due, w->map.due, bytes,
-                                   cudaMemcpyHostToDevice),
-                        "a walk", err) &&
-           device_check(cudaMemcpy(c->w.map.ahead, w->map.ahead, bytes,
-                                   cudaMemcpyHostToDevice),
-                        "a walk", err) &&
-           device_check(
-               cudaMemset(c->sum, 0, c->batches * SLICES * sizeof(double)),
-               "a walk", err) &&
-           device_check(cudaMemset(c->exceeded, 0, sizeof(uint32_t)), "a walk",
-                        err);
+    return count == 0 ||
+           device_check(cudaMemcpyAsync(const_cast<type *>(to), from,
+                                        count * sizeof(type),
+                                        cudaMemcpyHostToDevice, c->stream),
+                        "a walk", err);
 }
+
+template <typename type>
+bool clear(const crowd *c, type *what, size_t count, brume_error *err)
+{
+    return device_check(
+        cudaMemsetAsync(what, 0, count * sizeof(type), c->stream), "a walk",
+        err);
+}
+
+template <typename type>
+bool fetch(const crowd *c, type *to, const type *from, size_t count,
+           brume_error *err)
+{
+    return device_check(cudaMemcpyAsync(to, from, count * sizeof(type),
+                                        cudaMemcpyDeviceToHost, c->stream),
+                        "a walk", err) &&
+           device_check(cudaStreamSynchronize(c->stream), "a walk", err);
+}
+
+bool set_up(crowd *c, const walk *w, const flat *f, device_arena *arena,
+            brume_error *err)
+{
+    size_t entries = walk_entries(&w->map);
+    void *base = nullptr;
+    c->w = *w;
+    c->scene = f->view;
+    c->scratch_bytes = scratch_bytes_of(c->room);
+    size_t bytes = lay_out(c, arena);
+    device_keep_memory();
+    if (!device_check(
+            cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking),
+            "a walk", err) ||
+        !device_check(cudaMallocAsync(&base, bytes, c->stream), "a walk", err))
+        return false;
+    *arena = {static_cast<char *>(base), bytes, 0};
+    lay_out(c, arena);
+    bool good = send(c, c->w.map.due, w->map.due, entries, err) &&
+                send(c, c->w.map.ahead, w->map.ahead, entries, err) &&
+                clear(c, c->sum, c->batches * SLICES, err) &&
+                clear(c, c->fault, FAULTS, err);
+#define X(type, name)                                                          \
+    good = good &&                                                             \
+           send(c, c->scene.name, f->view.name, f->view.name##_count, err);
+    SCENE_ARRAYS(X)
+#undef X
+    return good;
+}
+
+/* ---- a walk -------------------------------------------------------------- */
 
 uint32_t blocks_for(uint32_t count)
 {
@@ -230,7 +374,7 @@ void sort(crowd *c)
     while (c->batches >> (bits - PLACE_BITS))
         bits++;
     cub::DeviceRadixSort::SortPairs(c->scratch, c->scratch_bytes, keys, orders,
-                                    c->count, 0, bits);
+                                    c->count, 0, bits, c->stream);
     c->key[0] = keys.Current();
     c->key[1] = keys.Alternate();
     c->order[0] = orders.Current();
@@ -241,65 +385,56 @@ void sort(crowd *c)
 bool generation(crowd *c, brume_error *err)
 {
     uint32_t blocks = blocks_for(c->count);
-    step<<<blocks, THREADS>>>(*c);
-    add_seen<<<dim3(SLICES, c->batches), THREADS>>>(*c);
+    step<<<blocks, THREADS, 0, c->stream>>>(*c);
+    add_seen<<<dim3(SLICES, c->batches), THREADS, 0, c->stream>>>(*c);
     sort(c);
     c->w.generation++;
-    judge<<<blocks, THREADS>>>(*c);
+    judge<<<blocks, THREADS, 0, c->stream>>>(*c);
     cub::DeviceScan::InclusiveSum(c->scratch, c->scratch_bytes, c->share,
-                                  c->share, c->count);
-    count_copies<<<blocks, THREADS>>>(*c);
+                                  c->share, c->count, c->stream);
+    count_copies<<<blocks, THREADS, 0, c->stream>>>(*c);
     cub::DeviceScan::ExclusiveSum(c->scratch, c->scratch_bytes, c->copies,
-                                  c->place, c->count);
-    copy<<<blocks, THREADS>>>(*c);
+                                  c->place, c->count, c->stream);
+    copy<<<blocks, THREADS, 0, c->stream>>>(*c);
     return device_check(cudaGetLastError(), "a walk", err) &&
-           device_check(cudaMemcpy(&c->count, c->first + c->batches,
-                                   sizeof c->count, cudaMemcpyDeviceToHost),
-                        "a walk", err);
+           fetch(c, &c->count, c->first + c->batches, 1, err);
 }
 
-/* The pass-th n paths of each batch; their sums are added up on the device.
- * Few take as long as many: of the last, which bring little, ever fewer are
- * kept. */
+/* The pass-th n paths of each batch; their sums are added up on the device. */
 bool walk_part(crowd *c, uint32_t pass, uint32_t n, brume_error *err)
 {
-    uint32_t all = n * static_cast<uint32_t>(c->batches);
-    double share = c->w.share;
+    uint32_t batches = static_cast<uint32_t>(c->batches);
     c->w.pass = pass;
     c->w.generation = 0;
-    c->count = all;
-    begin<<<blocks_for(c->count + 1), THREADS>>>(*c, n);
-    while (c->count > 0) {
+    c->count = n * batches;
+    begin<<<blocks_for(c->count + 1), THREADS, 0, c->stream>>>(*c, n);
+    do {
         if (!generation(c, err))
             return false;
         if (c->count > c->room)
             return brume_fail(err, BRUME_ERR_DEVICE,
                               "paths of a walk have no room: %u", c->count);
-        c->w.share *= c->count < all / 64 ? 1.01 : 1.0;
-    }
-    c->w.share = share;
-    return true;
+    } while (c->count > LAST * batches);
+    finish<<<batches, THREADS, 0, c->stream>>>(*c);
+    return device_check(cudaGetLastError(), "a walk", err);
 }
 
 bool fetch_means(const crowd *c, double paths, double *mean, brume_error *err)
 {
     std::vector<double> sum(c->batches * SLICES);
-    uint32_t exceeded = 0;
-    if (!device_check(cudaMemcpy(sum.data(), c->sum,
-                                 sum.size() * sizeof(double),
-                                 cudaMemcpyDeviceToHost),
-                      "a walk", err) ||
-        !device_check(cudaMemcpy(&exceeded, c->exceeded, sizeof exceeded,
-                                 cudaMemcpyDeviceToHost),
-                      "a walk", err))
+    uint32_t fault[FAULTS] = {};
+    if (!fetch(c, sum.data(), c->sum, sum.size(), err) ||
+        !fetch(c, fault, c->fault, FAULTS, err))
         return false;
     for (int b = 0; b < c->batches; b++) {
         mean[b] = 0.0;
         for (int i = 0; i < SLICES; i++)
             mean[b] += sum[b * SLICES + i] / paths;
     }
-    return exceeded == 0 ||
-           brume_fail(err, BRUME_ERR_DEVICE, "a majorant was exceeded");
+    return (fault[EXCEEDED] == 0 && fault[OVERFLOWED] == 0) ||
+           brume_fail(err, BRUME_ERR_DEVICE,
+                      "majorants were exceeded: %u; batches had no room: %u",
+                      fault[EXCEEDED], fault[OVERFLOWED]);
 }
 
 }
@@ -311,19 +446,18 @@ bool walk_on_gpu(const walk *w, const flat *f, size_t n, int batches,
     device_arena arena = {};
     size_t parts = (n * batches + MOST - 1) / MOST;
     size_t each = (n + parts - 1) / parts;
+    size_t room = GROWTH * each > 2 * LAST_ROOM ? GROWTH * each : 2 * LAST_ROOM;
     c.batches = batches;
-    c.room = static_cast<uint32_t>(GROWTH * each * batches);
-    shoot *scene = shoot_new(f, err);
-    bool good = scene && set_up(&c, w, &arena, err);
-    if (good)
-        c.scene = *shoot_scene(scene);
+    c.room = static_cast<uint32_t>(room * batches);
+    bool good = set_up(&c, w, f, &arena, err);
     for (size_t i = 0; good && i < parts; i++)
         good = walk_part(&c, static_cast<uint32_t>(i),
                          static_cast<uint32_t>(each), err);
     good = good &&
            fetch_means(&c, static_cast<double>(each * parts), mean, err);
-    device_arena_free(&arena);
-    if (scene)
-        shoot_free(scene);
+    if (arena.base)
+        cudaFreeAsync(arena.base, c.stream);
+    if (c.stream)
+        cudaStreamDestroy(c.stream);
     return good;
 }

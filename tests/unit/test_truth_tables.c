@@ -7,18 +7,22 @@
  * A row passes with |z| < 4, z = (mean - truth) / sqrt(SE^2 + u^2) over 32
  * batches, at a standard error SE <= max(truth / 1000, u). Where a picture
  * would take more than PICTURE_SECONDS (2) of the processor for that, the
- * row's scene is walked through (truth_walk.h), if it may be; WALK=1 does so
- * at once, WALK=-1 never. What takes more than SECONDS_A_ROW (60) is `short`:
- * the error it reached is told, and z still holds. RELATIVE=1e-4 asks for more.
- * With FIRST_SECONDS none is drawn whose smallest pictures would take longer.
- * BACKEND=cuda draws the pictures and walks on a GPU, and seconds are the
- * clock's; PIXELS=512 makes pictures larger than 16 x 16, as far as all batches
- * of a row are done in time.
+ * row's scene is walked through (truth_walk.h), if it may be. WALK=1 does
+ * nothing but such walks, WALK=-1 nothing but pictures. What takes more than
+ * SECONDS_A_ROW (60) is `short`: the error it reached is told, and z still
+ * holds. RELATIVE=1e-4 asks for more. BACKEND=cuda draws and walks on a GPU,
+ * and seconds are the clock's. PIXELS=256 makes pictures larger than 16 x 16,
+ * as far as all batches are done in time; FIRST_SECONDS=20 leaves them out
+ * where the smallest would take longer and the row may be walked through.
+ * THREADS=12 for walks on a GPU, of pictures processes with QUEUE=file work
+ * side by side.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
  * it has, if that is told well (KNOWN_ERROR). */
 #include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -26,7 +30,7 @@
 #include "tests/unit/truth_scenes.h"
 #include "tests/unit/truth_tables.h"
 
-enum { MOST_ROWS = 1024, BATCHES = 32 };
+enum { MOST_ROWS = 1024, BATCHES = 32, MOST_THREADS = 64 };
 
 struct result {
     double mean, error, z, seconds;
@@ -353,32 +357,45 @@ static double choose_side(const struct truth_row *row, uint32_t *frame,
     return few * BATCHES;
 }
 
-static struct result run_row(struct truth_row *row, uint32_t frame,
-                             double seconds)
+static bool may_walk(const struct truth_row *row)
 {
-    struct result out = {0};
-    double start = seconds_now();
-    double least = choose_side(row, &frame, seconds);
-    bool can_walk = row->plan.space != WALK_NOWHERE &&
-                    setting("WALK", 0.0) >= 0.0;
-    row->walked = can_walk && (setting("WALK", 0.0) > 0.0 ||
-                               least > setting("FIRST_SECONDS", INFINITY));
-    if (!row->walked)
-        run_so(row, &frame,
-               can_walk ? fmin(seconds, setting("PICTURE_SECONDS", 2.0))
-                        : seconds,
-               can_walk, &out);
-    if (can_walk && !out.reached) {
-        bool known = !row->walked && out.error < KNOWN_ERROR * row->truth &&
-                     unseen(row, out.spp) < KNOWN_EVENT * row->truth;
-        out.picture_z = known ? out.z : 0.0;
-        row->walked = true;
-        run_so(row, &frame, seconds, false, &out);
-    } else if (!row->walked) {
-        out.picture_z = out.z;
+    return row->plan.space != WALK_NOWHERE;
+}
+
+/* The row's pictures. False: its walk has to do, as none were drawn or their
+ * error is not known well. */
+static bool run_pictures(const struct truth_row *row, uint32_t *frame,
+                         double seconds, struct result *out)
+{
+    double least = choose_side(row, frame, seconds);
+    if (!may_walk(row)) {
+        run_so(row, frame, seconds, false, out);
+        return true;
     }
-    out.seconds = seconds_now() - start;
-    return out;
+    if (least > setting("FIRST_SECONDS", INFINITY))
+        return false;
+    run_so(row, frame, fmin(seconds, setting("PICTURE_SECONDS", 2.0)), true,
+           out);
+    return out->reached || (out->error < KNOWN_ERROR * row->truth &&
+                            unseen(row, out->spp) < KNOWN_EVENT * row->truth);
+}
+
+/* False: there is nothing to tell. */
+static bool run_row(struct truth_row *row, uint32_t frame, double seconds,
+                    struct result *out)
+{
+    int how = (int)setting("WALK", 0.0);
+    double start = seconds_now();
+    bool drawn = how <= 0 && run_pictures(row, &frame, seconds, out);
+    out->picture_z = drawn ? out->z : 0.0;
+    if (how >= 0 && may_walk(row) && !out->reached) {
+        if (how > 0)
+            *batch_side() = (int)setting("PIXELS", BATCH_PIXELS);
+        row->walked = true;
+        run_so(row, &frame, seconds, false, out);
+    }
+    out->seconds = seconds_now() - start;
+    return drawn || row->walked;
 }
 
 /* No two rows share their random numbers; SEED moves them all. */
@@ -387,22 +404,33 @@ static uint32_t first_frame(int row)
     return (uint32_t)setting("SEED", 0.0) * 100003u + ((uint32_t)row << 20);
 }
 
-/* Of so many rows, or -1. Processes that share a file take from it, and so none
- * waits for another: from the last on, which take longest (QUEUE=file). */
-static int next_row(int count)
+/* How many were taken by those that share a file. */
+static int take_of(const char *name)
 {
-    static int next;
-    const char *name = getenv("QUEUE");
-    if (!name)
-        return next < count ? next++ : -1;
-    int file = open(name, O_RDWR | O_CREAT, 0600), taken = 0, after;
+    int file = open(name, O_RDWR | O_CREAT, 0600), taken = 0;
     assert_true(file >= 0 && lockf(file, F_LOCK, 0) == 0);
-    bool begun = pread(file, &taken, sizeof taken, 0) == sizeof taken;
-    taken = begun ? taken : 0;
-    after = taken + 1;
+    if (pread(file, &taken, sizeof taken, 0) != sizeof taken)
+        taken = 0;
+    int after = taken + 1;
     assert_true(pwrite(file, &after, sizeof after, 0) == sizeof after);
     close(file);
-    return taken < count ? count - 1 - taken : -1;
+    return taken;
+}
+
+/* Of so many rows the next, or -1. Threads, and processes that share a file,
+ * take from the last on, which are the longest, so that none waits for
+ * another. */
+static int next_row(int count, bool shared)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static int next;
+    const char *queue = getenv("QUEUE");
+    pthread_mutex_lock(&lock);
+    int taken = queue ? take_of(queue) : next++;
+    pthread_mutex_unlock(&lock);
+    if (taken >= count)
+        return -1;
+    return shared || queue ? count - 1 - taken : taken;
 }
 
 static bool asked(const char *name, int count, char **words)
@@ -439,23 +467,52 @@ static void report(const struct truth_row *row, const struct result *r,
     fflush(stdout);
 }
 
+/* What a thread does of it. */
+struct tables {
+    struct truth_row *rows;
+    int count, words, threads;
+    char **word;
+    bool sample, table;
+    atomic_int bad;
+};
+
+static void *run_tables(void *context)
+{
+    struct tables *t = context;
+    double seconds = setting("SECONDS_A_ROW", 60.0);
+    for (int i; (i = next_row(t->count, t->threads > 1)) >= 0;) {
+        struct truth_row *row = &t->rows[i];
+        struct result r = {0};
+        if (t->sample ? !row->sample : !asked(row->name, t->words, t->word))
+            continue;
+        if (!run_row(row, first_frame(i), seconds, &r))
+            continue;
+        report(row, &r, t->table);
+        t->bad += !holds(&r) || (t->sample && !r.reached);
+    }
+    return NULL;
+}
+
 int main(int argc, char **argv)
 {
     static struct truth_row rows[MOST_ROWS];
-    int count = all_rows(rows), bad = 0;
-    bool table = argc > 1 && strcmp(argv[1], "table") == 0;
-    bool sample = argc < 2;
-    double seconds = setting("SECONDS_A_ROW", 60.0);
-    if (table)
+    struct tables t = {.rows = rows,
+                       .count = all_rows(rows),
+                       .words = argc - 2,
+                       .word = argv + 2,
+                       .threads = (int)setting("THREADS", 1.0),
+                       .sample = argc<2, .table = argc> 1 &&
+                                 strcmp(argv[1], "table") == 0};
+    pthread_t thread[MOST_THREADS];
+    assert_true(t.threads >= 1 && t.threads <= MOST_THREADS);
+    if (t.table)
         printf("| row | truth | mean | SE / truth | z | z of its picture | "
                "CPU s | by |\n"
                "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    for (int i; (i = next_row(count)) >= 0;) {
-        if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
-            continue;
-        struct result r = run_row(&rows[i], first_frame(i), seconds);
-        report(&rows[i], &r, table);
-        bad += !holds(&r) || (sample && !r.reached);
-    }
-    return bad > 0;
+    for (int i = 1; i < t.threads; i++)
+        assert_int_equal(pthread_create(&thread[i], NULL, run_tables, &t), 0);
+    run_tables(&t);
+    for (int i = 1; i < t.threads; i++)
+        pthread_join(thread[i], NULL);
+    return t.bad > 0;
 }

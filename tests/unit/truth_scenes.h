@@ -24,7 +24,7 @@ enum { BATCH_PIXELS = 16 };
 /* Pictures are so many pixels wide and high: on a GPU they are to be large. */
 static inline int *batch_side(void)
 {
-    static int side = BATCH_PIXELS;
+    static _Thread_local int side = BATCH_PIXELS;
     return &side;
 }
 
