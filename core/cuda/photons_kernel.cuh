@@ -238,14 +238,10 @@ bear_photons(const __grid_constant__ trace_job job)
     write_counts(&job, &count);
 }
 
-/* Whether a photon is left to the block; *few: so few that it leaves them. */
-__device__ __forceinline__ bool goes_round(const tracer *t, bool *few)
-{
-    int left = __syncthreads_count(t->next != TRACER_ENDS);
-    *few = left <= few_of_block;
-    return left > 0;
-}
-
+/* A block goes round until no photon is left to it, and once more to lay what
+ * waits; if few are left, it leaves them. They are counted at the end of a
+ * round: ptxas takes a minute longer, for sm_75, over a loop that begins with
+ * the count. */
 __global__ void __launch_bounds__(most_trace_threads, 1)
 trace_photons(const __grid_constant__ trace_job job)
 {
@@ -261,9 +257,11 @@ trace_photons(const __grid_constant__ trace_job job)
     t.next = TRACER_TAKES;
     l.busy = false;
     l.first = l.count = 0;
-    bool few;
-    while (goes_round(&t, &few)) {
-        land(&job, &t, m->event, count, few);
+    int left = most_trace_threads;
+    bool ends;
+    do {
+        ends = left == 0;
+        land(&job, &t, m->event, count, left <= few_of_block);
         seek(&job, &t);
         if (t.next == PHOTON_DEPARTS) {
             photon_depart(s, &t.photon, count, &t.flight);
@@ -271,9 +269,9 @@ trace_photons(const __grid_constant__ trace_job job)
         }
         fly(&job, &t, count);
         put_stretches(m, &l, &t);
-        lay(s, m, &l, count, lay_threads);
-    }
-    lay(s, m, &l, count, 1);
+        lay(s, m, &l, count, ends ? 1 : lay_threads);
+        left = __syncthreads_count(t.next != TRACER_ENDS);
+    } while (!ends);
     write_counts(&job, count);
 }
 
