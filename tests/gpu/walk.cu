@@ -1,7 +1,6 @@
 /* The walks of tests/unit/truth_walk.h: the paths of all batches side by side,
  * sorted by batch and place; the last few of a batch by a block. Sums are in a
- * fixed order, those by which paths are split are of whole numbers. Each call
- * has a stream of its own, so that several can be at work. */
+ * fixed order, those by which paths are split are of whole numbers. */
 #define SCENE_MAY (MAY_EMISSION | MAY_SKY | MAY_MANY | MAY_CLEAR)
 #include "tests/gpu/walk.h"
 #include "core/cuda/device.cuh"

@@ -14,15 +14,12 @@
  * and seconds are the clock's. PIXELS=256 makes pictures larger than 16 x 16,
  * as far as all batches are done in time; FIRST_SECONDS=20 leaves them out
  * where the smallest would take longer and the row may be walked through.
- * THREADS=12 for walks on a GPU, of pictures processes with QUEUE=file work
- * side by side.
+ * Processes with the same QUEUE=file share the rows.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
  * it has, if that is told well (KNOWN_ERROR). */
 #include <fcntl.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -30,7 +27,7 @@
 #include "tests/unit/truth_scenes.h"
 #include "tests/unit/truth_tables.h"
 
-enum { MOST_ROWS = 1024, BATCHES = 32, MOST_THREADS = 64 };
+enum { MOST_ROWS = 1024, BATCHES = 32 };
 
 struct result {
     double mean, error, z, seconds;
@@ -417,20 +414,16 @@ static int take_of(const char *name)
     return taken;
 }
 
-/* Of so many rows the next, or -1. Threads, and processes that share a file,
- * take from the last on, which are the longest, so that none waits for
- * another. */
-static int next_row(int count, bool shared)
+/* Of so many rows the next, or -1. Processes that share a file take from the
+ * last on, which are the longest, so that none waits for another. */
+static int next_row(int count)
 {
-    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     static int next;
     const char *queue = getenv("QUEUE");
-    pthread_mutex_lock(&lock);
     int taken = queue ? take_of(queue) : next++;
-    pthread_mutex_unlock(&lock);
     if (taken >= count)
         return -1;
-    return shared || queue ? count - 1 - taken : taken;
+    return queue ? count - 1 - taken : taken;
 }
 
 static bool asked(const char *name, int count, char **words)
@@ -467,52 +460,25 @@ static void report(const struct truth_row *row, const struct result *r,
     fflush(stdout);
 }
 
-/* What a thread does of it. */
-struct tables {
-    struct truth_row *rows;
-    int count, words, threads;
-    char **word;
-    bool sample, table;
-    atomic_int bad;
-};
-
-static void *run_tables(void *context)
-{
-    struct tables *t = context;
-    double seconds = setting("SECONDS_A_ROW", 60.0);
-    for (int i; (i = next_row(t->count, t->threads > 1)) >= 0;) {
-        struct truth_row *row = &t->rows[i];
-        struct result r = {0};
-        if (t->sample ? !row->sample : !asked(row->name, t->words, t->word))
-            continue;
-        if (!run_row(row, first_frame(i), seconds, &r))
-            continue;
-        report(row, &r, t->table);
-        t->bad += !holds(&r) || (t->sample && !r.reached);
-    }
-    return NULL;
-}
-
 int main(int argc, char **argv)
 {
     static struct truth_row rows[MOST_ROWS];
-    struct tables t = {.rows = rows,
-                       .count = all_rows(rows),
-                       .words = argc - 2,
-                       .word = argv + 2,
-                       .threads = (int)setting("THREADS", 1.0),
-                       .sample = argc<2, .table = argc> 1 &&
-                                 strcmp(argv[1], "table") == 0};
-    pthread_t thread[MOST_THREADS];
-    assert_true(t.threads >= 1 && t.threads <= MOST_THREADS);
-    if (t.table)
+    int count = all_rows(rows), bad = 0;
+    bool table = argc > 1 && strcmp(argv[1], "table") == 0;
+    bool sample = argc < 2;
+    double seconds = setting("SECONDS_A_ROW", 60.0);
+    if (table)
         printf("| row | truth | mean | SE / truth | z | z of its picture | "
                "CPU s | by |\n"
                "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    for (int i = 1; i < t.threads; i++)
-        assert_int_equal(pthread_create(&thread[i], NULL, run_tables, &t), 0);
-    run_tables(&t);
-    for (int i = 1; i < t.threads; i++)
-        pthread_join(thread[i], NULL);
-    return t.bad > 0;
+    for (int i; (i = next_row(count)) >= 0;) {
+        struct result r = {0};
+        if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
+            continue;
+        if (!run_row(&rows[i], first_frame(i), seconds, &r))
+            continue;
+        report(&rows[i], &r, table);
+        bad += !holds(&r) || (sample && !r.reached);
+    }
+    return bad > 0;
 }

@@ -23,7 +23,7 @@ struct estimate {
 
 static inline struct brume_error *truth_error(void)
 {
-    static _Thread_local struct brume_error err;
+    static struct brume_error err;
     if (err.code != BRUME_OK)
         fail_msg("%s", err.text);
     return &err;

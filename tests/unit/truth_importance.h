@@ -122,7 +122,7 @@ static inline void walk_solve_space(struct walk_map *m)
 /* Kept while plans ask for the same, but for the direction of a start. */
 static inline const struct walk_map *walk_map_of(const struct walk_plan *p)
 {
-    static _Thread_local struct walk_map m;
+    static struct walk_map m;
     struct walk_plan plan = *p;
     plan.cosine = 0.0;
     if (memcmp(&m.plan, &plan, sizeof plan) == 0)

@@ -24,7 +24,7 @@ enum { BATCH_PIXELS = 16 };
 /* Pictures are so many pixels wide and high: on a GPU they are to be large. */
 static inline int *batch_side(void)
 {
-    static _Thread_local int side = BATCH_PIXELS;
+    static int side = BATCH_PIXELS;
     return &side;
 }
 
@@ -410,18 +410,29 @@ static inline void batch_ball(const struct truth_row *row, struct batches *b)
     batch_scale(b, 3.0 / (TRUTH_PI * r), 0.0);
 }
 
-/* A slab that stands for the half-space of this albedo; for albedo 1 the rows
- * add what passes it. */
+/* How deep a walk looks; for albedo 1 the scene ends there, as paths would not,
+ * and the rows add what passes it. */
 static inline double half_space_depth(double albedo)
 {
     return albedo == 1.0 ? 20.0 : 20.0 / sqrt(3.0 * (1.0 - albedo));
 }
 
+/* Behind a plane: floats of a deep box put a walk that is near its face
+ * outside, for it finds anew what it is in (truths.md). */
 static inline brume_scene *half_space(double albedo)
 {
     double depth = half_space_depth(albedo);
     struct brume_medium m = truth_medium(1.0 - albedo, albedo, 0.0);
-    return batch_slab(true, depth, 50.0 + 2.0 * depth, &m);
+    struct brume_globals g = batch_globals(true);
+    struct brume_shape plane = BRUME_SHAPE_INIT;
+    if (albedo == 1.0)
+        return batch_slab(true, depth, 50.0 + 2.0 * depth, &m);
+    brume_scene *s = truth_scene(&g, 1.0, 1e-6);
+    plane.kind = BRUME_SHAPE_PLANE;
+    plane.radius = 0.0;
+    plane.a[2] = -1.0;
+    truth_fill(s, plane, &m);
+    return s;
 }
 
 /* What a conservative slab passes of a beam with that cosine, by its escape
