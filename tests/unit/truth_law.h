@@ -81,7 +81,17 @@ HD double walk_moved(const struct walk_map *m, double x, double cosine,
                : sqrt(x * x + 2.0 * x * cosine * t + t * t);
 }
 
-/* Of a path that sets out. */
+/* Of a path that sets out in direction j of the table: as walk_ahead tells. */
+HD double walk_ahead_in(const struct walk_map *m, double x, int j)
+{
+    double y = x / m->reach * m->layers;
+    y = y < 0.0 ? 0.0 : y > m->layers ? m->layers : y;
+    int i = (int)y - (y >= m->layers);
+    const double *a = &m->ahead[i * WALK_ANGLES + j];
+    return (1.0 - (y - i)) * a[0] + (y - i) * a[WALK_ANGLES];
+}
+
+/* Of one that sets out. */
 HD double walk_ahead(const struct walk_map *m, double x, double cosine)
 {
     return walk_between(m, m->ahead, x, cosine);

@@ -214,7 +214,7 @@ HD vec3 walk_turn_even(struct walk_path *p)
     const flat_medium *m = &p->scene->media[p->a.medium];
     double u = walk_number(p, WALK_TURN), part[WALK_ANGLES], all = 0.0;
     for (int k = 0; k < WALK_ANGLES; k++) {
-        part[k] = walk_ahead(map, (double)p->a.at, walk_cosine(k));
+        part[k] = walk_ahead_in(map, (double)p->a.at, k);
         all += part[k];
     }
     double left = u * all;
