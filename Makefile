@@ -90,13 +90,15 @@ OTHER_LIBS += -L$(dir $(shell command -v $(NVCC)))../lib64 -lcudart_static \
     -lstdc++ -ldl -lrt
 TOOLS    += $(B)/tests/gpu/trees
 ON_GPU   := $(call objects,$(wildcard tests/gpu/*.cu))
+GPU_TESTS := $(B)/tests/tools/compare $(B)/tests/bench/grids \
+    $(B)/tests/gpu/trees $(B)/tests/unit/test_truth_tables
 endif
 
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all unit tools fuzzers setup demo film test test-all fuzz mutants bench \
         do-demo do-film do-test do-test-all \
-        lint format install bundle clean
+        lint format install bundle gpu-bundle clean
 all: $(B)/brume
 
 $(B)/brume: $(PARSER) $(B)/libbrume.a | $(MODULE)
@@ -247,14 +249,23 @@ install: $(B)/brume
 	    $(abspath $(ROOT))/share/brume/scenes/{} \;
 	@echo '  installed	$(ROOT)'
 
-# A folder that runs from any place on any x86-64 Linux with glibc >= 2.36.
-bundle: $(B)/brume
-	@rm -rf $(B)/bundle
-	@$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(B)/bundle
-	@$(C) $(CFLAGS) -s -o $(B)/bundle/bin/brume $(PARSER) $(B)/libbrume.a \
+# A folder, and programs beside bin/brume in it.
+define pack
+	@rm -rf $(1)
+	@$(MAKE) --no-print-directory install DESTDIR= PREFIX=$(1)
+	@$(C) $(CFLAGS) -s -o $(1)/bin/brume $(PARSER) $(B)/libbrume.a \
 	    $(LDFLAGS) $(LIBS) \
 	    $(call rpath,$$ORIGIN/../lib:$$ORIGIN/../lib/brume)
-	@.ci/bundle $(B)/bundle
+	@.ci/bundle $(1) $(2)
+endef
+
+# Runs from any place on any x86-64 Linux with glibc >= 2.36.
+bundle: $(B)/brume
+	$(call pack,$(B)/bundle)
+
+# The same with what tests/gpu/run needs where there is a GPU and little else.
+gpu-bundle: $(B)/brume $(GPU_TESTS)
+	$(call pack,$(B)/gpu-bundle,$(GPU_TESTS))
 
 clean:
 	rm -rf build
