@@ -265,6 +265,7 @@ bundle: $(B)/brume
 
 # The same with what tests/gpu/run needs where there is a GPU and little else.
 gpu-bundle: $(B)/brume $(GPU_TESTS)
+	$(if $(GPU_TESTS),,$(error make gpu-bundle: there is no nvcc, or CUDA=0))
 	$(call pack,$(B)/gpu-bundle,$(GPU_TESTS))
 
 clean:

@@ -46,7 +46,8 @@ int cuda_devices()
 
 void cuda_use(int device)
 {
-    cudaSetDevice(device);
+    if (cudaSetDevice(device) != cudaSuccess)
+        cudaGetLastError(); /* told where the device is opened */
 }
 
 void cuda_close(void *state)
