@@ -10,8 +10,8 @@ namespace
 {
 
 /* Paths of a launch, at most: few enough for a stop to be heard within a second
- * or so, many enough that threads find work when their first paths end. They
- * take 160 bytes each: so few, where memory is short. */
+ * or so, many enough that threads find work when their first paths end. One
+ * takes 160 bytes: there are few where memory is short. */
 const size_t most_paths = 1u << 22;
 const size_t few_paths = 1u << 18;
 

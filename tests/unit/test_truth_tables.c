@@ -27,7 +27,7 @@
 #include "tests/unit/truth_scenes.h"
 #include "tests/unit/truth_tables.h"
 
-enum { MOST_ROWS = 1024, BATCHES = 32 };
+enum { MOST_ROWS = 1024 };
 
 struct result {
     double mean, error, z, seconds;

@@ -159,11 +159,13 @@ static inline void walk_lattice(struct walk *w)
         w->step[k] = pow(1.0 / x, k + 1);
 }
 
+enum { BATCHES = 32 }; /* at most */
+
 /* Estimates of one number, each by random numbers of its own. */
 struct batches {
     int count, spp;
     uint32_t frame, stride; /* of the first; from each to the next           */
-    double mean[32];
+    double mean[BATCHES];
 };
 
 /* The means over n paths, like pictures'; frees the scene. */
@@ -177,7 +179,7 @@ static inline void truth_walk(brume_scene *s, const struct walk_plan *plan,
                      .stride = b->stride};
     w.map.plan = *plan;
     walk_lattice(&w);
-    /* What a walker is worth after its first flight, about. */
+    /* About what one is worth after its first flight; the CPU finds it. */
     w.share = (1.0 - plan->loss) *
               walk_ahead(&w.map, plan->start, plan->cosine);
     for (int i = 0; !on_gpu && i < b->count; i++)
