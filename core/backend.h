@@ -1,4 +1,5 @@
-/* backend.h - the table of functions that a backend gives. */
+/* backend.h - the table of functions that a backend gives, and which backend a
+ * frame is for. */
 #ifndef CORE_BACKEND_H
 #define CORE_BACKEND_H
 #include "core/film.h"
@@ -82,6 +83,24 @@ static inline bool backend_sharpens(const struct backend_frame *frame)
     const radiance_lattice *f = &frame->flat->view.field;
     return !frame->raw && !f->ball && !f->refined;
 }
+
+/* What the options ask for; by itself the GPU's where there is one, as the
+ * pictures are the same. NULL with err set: it can't run here. */
+const struct backend *backend_choose(const struct brume_options *o,
+                                     struct brume_error *err);
+
+/* From now on the calling thread works on this one of the backend's devices, if
+ * there are so many; at first it does on the first. The device is started,
+ * which takes a tenth of a second in which others may prepare. */
+void backend_use_device(const struct brume_options *options, int device);
+
+enum { BACKEND_TEXT = 1100 };
+
+/* The state of *b. Where its memory is too small, `spare`, if any, takes its
+ * place as *b, and `text`, of BACKEND_TEXT bytes, says so. NULL with err set. */
+void *backend_open(const struct backend **b, const struct backend *spare,
+                   const struct backend_frame *frame, char *text,
+                   struct brume_error *err);
 
 extern const struct backend backend_cpu;
 #ifdef BRUME_CUDA

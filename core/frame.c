@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "core/drift.h"
-#include "core/order.h"
 #include "core/physics/kdtree.h"
 #include "core/plate.h"
 #include "core/prepare.h"
@@ -24,58 +23,6 @@
 
 /* Entries of a kd-tree's stack, if no other number is asked for. */
 #define DEFAULT_STACK 4
-
-#ifndef BRUME_CUDA
-static bool cuda_available(char *why, size_t size)
-{
-    snprintf(why, size, "this brume was built without a CUDA backend");
-    return false;
-}
-
-static const struct backend backend_cuda = {.name = "cuda",
-                                            .available = cuda_available};
-#endif
-
-/* By itself the GPU's, where there is one: the pictures are the same. */
-static const struct backend *choose_backend(const struct brume_options *o,
-                                            struct brume_error *err)
-{
-    char why[256] = "";
-    bool lacks = o->integrator == BRUME_INTEGRATOR_PROGRESSIVE &&
-                 !backend_cuda.renew;
-    if (o->backend == BRUME_BACKEND_CPU ||
-        (o->backend == BRUME_BACKEND_AUTO && lacks))
-        return &backend_cpu;
-    if (backend_cuda.available(why, sizeof why))
-        return &backend_cuda;
-    if (o->backend == BRUME_BACKEND_AUTO)
-        return &backend_cpu;
-    brume_fail(err, BRUME_ERR_DEVICE, "no GPU can be used: %s", why);
-    return NULL;
-}
-
-void frame_use_device(const struct brume_options *options, int device)
-{
-    struct brume_error none = {0};
-    const struct backend *b = choose_backend(options, &none);
-    if (b && b->use && device < b->devices())
-        b->use(device);
-}
-
-int brume_film_devices(const struct brume_options *options, char *why,
-                       size_t size)
-{
-    struct brume_error err = {0};
-    const struct backend *b = choose_backend(options, &err);
-    snprintf(why, size, "%s", err.text);
-    if (b && b->devices)
-        return b->devices();
-    if (options->backend == BRUME_BACKEND_CPU)
-        snprintf(why, size, "the CPU is asked for");
-    else if (b && backend_cuda.available(why, size))
-        snprintf(why, size, "it can't run this integrator yet");
-    return 0;
-}
 
 static void set_goal(struct frame_job *j)
 {
@@ -512,34 +459,19 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
     return good;
 }
 
-/* A tree that was left to a backend that does not build any. */
-static bool build_tree(const struct backend *b, struct flat *flat,
-                       struct brume_error *err)
-{
-    return b->builds || order_build(flat, err);
-}
-
-static void *open_it(const struct backend *b, const struct backend_frame *frame,
-                     struct brume_error *err)
-{
-    return build_tree(b, frame->flat, err) ? b->open(frame, err) : NULL;
-}
-
-/* Opens the chosen backend. One that was not asked for by name gives way to
- * the CPU's where its memory is too small. */
-static void *open_backend(struct frame_job *j, const struct backend **b,
+/* The chosen backend, or the CPU's if its memory is too small and it was not
+ * asked for by name. */
+static void *open_backend(struct frame_job *j,
                           const struct backend_frame *frame,
                           struct brume_error *err)
 {
-    void *state = open_it(*b, frame, err);
-    if (state || *b == &backend_cpu || err->code != BRUME_ERR_MEMORY ||
-        j->options->backend != BRUME_BACKEND_AUTO)
-        return state;
-    char text[sizeof err->text + 40];
-    snprintf(text, sizeof text, "%s; the CPU renders instead", err->text);
-    warn(j, text);
-    *b = &backend_cpu;
-    return open_it(*b, frame, err);
+    char text[BACKEND_TEXT] = "";
+    bool by_name = j->options->backend != BRUME_BACKEND_AUTO;
+    void *state = backend_open(&j->backend, by_name ? NULL : &backend_cpu,
+                               frame, text, err);
+    if (text[0])
+        warn(j, text);
+    return state;
 }
 
 /* One that is traced alone needs no pixels. */
@@ -553,7 +485,7 @@ static bool make_film(struct frame_job *j, struct brume_error *err)
 static bool open_state(struct frame_job *j, struct brume_error *err)
 {
     double start = timer_seconds();
-    j->backend = choose_backend(j->options, err);
+    j->backend = backend_choose(j->options, err);
     if (!j->backend || !make_film(j, err) || !check_memory(j, j->flat, err))
         return false;
     j->stages = plan_stages(j->flat, j->options);
@@ -562,7 +494,7 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
     load_part(j);
     struct backend_frame frame = {j->flat, j->options, &j->stages,   &j->film,
                                   tick,    j,          !j->rendering};
-    j->state = open_backend(j, &j->backend, &frame, err);
+    j->state = open_backend(j, &frame, err);
     if (!j->state)
         return false;
     snprintf(j->out->stats.backend, sizeof j->out->stats.backend, "%s",
@@ -634,7 +566,7 @@ static bool leaves_tree(const struct brume_options *options)
     struct brume_error none = {0};
     const struct backend *b = options->tree_on_cpu
                                   ? NULL
-                                  : choose_backend(options, &none);
+                                  : backend_choose(options, &none);
     return b && b->builds;
 }
 

@@ -33,11 +33,6 @@ struct frame_job {
     bool stopped;
 };
 
-/* From now on the calling thread works on this one of the backend's devices, if
- * there are so many; at first it does on the first. The device is started,
- * which takes a tenth of a second in which others may prepare. */
-void frame_use_device(const struct brume_options *options, int device);
-
 /* Prepares and lays out; `options` and `out` have to stay where they are, the
  * scene is not needed any more. To be closed in any case. */
 bool frame_open(struct frame_job *job, brume_scene *scene,

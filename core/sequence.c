@@ -298,7 +298,7 @@ static void *run_worker(void *context)
         lanes++;
     for (int i = lanes; i < LANES; i++)
         first->steps |= steps[i];
-    frame_use_device(&worker->film->first, worker->number);
+    backend_use_device(&worker->film->first, worker->number);
     work(first);
     for (int i = 1; i < lanes; i++)
         pthread_join(worker->lane[i].thread, NULL);
