@@ -315,11 +315,11 @@ bool sample_warm(cuda_state *s, brume_error *err)
 {
     sample_job none = s->job;
     none.x1 = none.x0;
-    none.samples = 1;
+    none.samples = 2; /* whose paths may be listed */
     s->liner->lines(&none);
     if (s->job.pixels.path)
         s->stage->paths(&none);
-    return device_check(cudaDeviceSynchronize(), "opening", err);
+    return device_wait("opening", err);
 }
 
 void *try_open(const backend_frame *frame, size_t paths, brume_error *err)

@@ -14,6 +14,12 @@ bool device_check(cudaError_t code, const char *stage, struct brume_error *err)
         "the GPU failed in %s: %s", stage, cudaGetErrorString(code));
 }
 
+bool device_wait(const char *stage, struct brume_error *err)
+{
+    return device_check(cudaGetLastError(), stage, err) &&
+           device_check(cudaDeviceSynchronize(), stage, err);
+}
+
 bool device_number(cudaDeviceAttr what, int *value, struct brume_error *err)
 {
     int device = 0;
@@ -46,7 +52,7 @@ bool device_clock_stop(struct device_clock *clock, int i, const char *stage,
                        struct brume_error *err)
 {
     return device_check(cudaEventRecord(clock->event[i]), stage, err) &&
-           device_check(cudaDeviceSynchronize(), stage, err);
+           device_wait(stage, err);
 }
 
 bool device_clock_add(struct device_clock *clock, int i, double *sum)

@@ -11,6 +11,10 @@
 bool device_check(cudaError_t code, const char *stage,
                   struct brume_error *err);
 
+/* Waits for all launches. One that had no memory for its code or its threads'
+ * stacks is told by this, and by no wait. */
+bool device_wait(const char *stage, struct brume_error *err);
+
 /* Memory of the device, in the order of its work. What is freed is kept for
  * the next that asks, so that frames after the first set none aside. */
 void device_keep_memory();

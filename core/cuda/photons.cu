@@ -254,7 +254,7 @@ bool photons_warm(cuda_state *s, brume_error *err)
         s->photons->balls(&cells);
     if (f->single || f->lit)
         s->photons->light(&cells);
-    return device_check(cudaDeviceSynchronize(), "opening", err);
+    return device_wait("opening", err);
 }
 
 bool cuda_trace(void *state, const photon_job *job, brume_stats *stats,
