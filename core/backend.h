@@ -97,7 +97,7 @@ void backend_use_device(const struct brume_options *options, int device);
 enum { BACKEND_TEXT = 1100 };
 
 /* The state of *b. Where its memory is too small, `spare`, if any, takes its
- * place as *b, and `text`, of BACKEND_TEXT bytes, says so. NULL with err set. */
+ * place as *b, and `text`, of BACKEND_TEXT bytes, says so. NULL: err tells. */
 void *backend_open(const struct backend **b, const struct backend *spare,
                    const struct backend_frame *frame, char *text,
                    struct brume_error *err);
