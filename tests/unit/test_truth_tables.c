@@ -8,13 +8,14 @@
  * batches, at a standard error SE <= max(truth / 1000, u). Where a picture
  * would take more than PICTURE_SECONDS (2) of the processor for that, the
  * row's scene is walked through (truth_walk.h), if it may be. WALK=1 does
- * nothing but such walks, WALK=-1 nothing but pictures. What takes more than
- * SECONDS_A_ROW (60) is `short`: the error it reached is told, and z still
- * holds. RELATIVE=1e-4 asks for more. BACKEND=cuda draws and walks on a GPU,
- * and seconds are the clock's. PIXELS=256 makes pictures larger than 16 x 16,
- * as far as all batches are done in time; FIRST_SECONDS=20 leaves them out
- * where the smallest would take longer and the row may be walked through.
- * Processes with the same QUEUE=file share the rows.
+ * nothing but such walks, WALK=-1 nothing but pictures, which then are as good
+ * as they get. What takes more than SECONDS_A_ROW (60) is `short`: the error it
+ * reached is told, and z still holds. RELATIVE=1e-4 asks for more.
+ * BACKEND=cuda draws and walks on a GPU, and seconds are the clock's.
+ * PIXELS=256 makes pictures larger than 16 x 16, as far as all batches are done
+ * in time; FIRST_SECONDS=20 leaves them out where the smallest would take
+ * longer and the row may be walked through. Processes with the same QUEUE=file
+ * share the rows.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
@@ -304,8 +305,8 @@ static double unseen(const struct truth_row *row, int spp)
                                       batch_pixels());
 }
 
-/* Doubles as its own pilot: batches that were too small are thrown away, so
- * that those that count have a size fixed before they ran. Gives up, if it
+/* Grows as its own pilot: batches that were too small are thrown away, so that
+ * those that count have a size fixed before they ran. Gives up, if it
  * may, where `seconds` would not do. */
 static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
                    bool gives_up, struct result *out)
@@ -324,7 +325,7 @@ static void run_so(const struct truth_row *row, uint32_t *frame, double seconds,
         double fits = (seconds - (seconds_now() - start)) / used;
         if (out->reached || fits < 1.5 || (gives_up && more > fits))
             break;
-        want = out->spp * fmin(fmin(fmax(more, 2.0), 50.0), fits);
+        want = out->spp * fmin(fmin(fmax(more, 1.3), 50.0), fits);
     } while (want < 1e6);
 }
 
@@ -391,6 +392,8 @@ static bool run_row(struct truth_row *row, uint32_t frame, double seconds,
         row->walked = true;
         run_so(row, &frame, seconds, false, out);
     }
+    if (how < 0 && may_walk(row))
+        out->reached = true;
     out->seconds = seconds_now() - start;
     return drawn || row->walked;
 }

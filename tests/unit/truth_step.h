@@ -68,7 +68,7 @@ HD void walk_shift(struct walk_path *p)
 }
 
 /* Those that matter come first in the lattice. */
-HD int walk_place(const struct walk *w, int number)
+HD int walk_dimension(const struct walk *w, int number)
 {
     int absorbs = w->map.plan.loss > 0.0;
     if (number <= WALK_FLY)
@@ -79,7 +79,7 @@ HD int walk_place(const struct walk *w, int number)
 /* Uniform in (0, 1). */
 HD double walk_number(const struct walk_path *p, int number)
 {
-    int k = walk_place(p->w, number);
+    int k = walk_dimension(p->w, number);
     double x = p->shift[k] + (double)p->i * p->w->step[k];
     x -= floor(x);
     return fmin(fmax(x, 0x1p-33), 1.0 - 0x1p-33);
@@ -148,6 +148,17 @@ HD double walk_choice(struct walk_path *p)
     return u * (1.0 - loss) / (1.0 - drawn);
 }
 
+/* Where a path scattered. Nearer to a face floats of the container may put it
+ * outside, where it would see what no path inside does. */
+HD double walk_place(const struct walk_path *p, vec3 x)
+{
+    const struct walk_plan *plan = &p->w->map.plan;
+    const double off = 1e-5;
+    if (plan->space != WALK_SLAB)
+        return (double)vec3_length(x) / p->w->unit;
+    return fmax(fmin((double)x.z / p->w->unit, plan->depth - off), off);
+}
+
 /* Lamps, and what goes on, at a scattering. */
 HD void walk_arrive(struct walk_path *p, path_state *s, const path_event *event)
 {
@@ -161,9 +172,7 @@ HD void walk_arrive(struct walk_path *p, path_state *s, const path_event *event)
     path_light(p->scene, s, &v);
     p->seen += p->a.weight * (double)s->radiance.r;
     p->a.weight *= (double)rgb_mean(s->beta) / (double)rgb_mean(s->r_u);
-    double at = p->w->map.plan.space == WALK_SLAB ? (double)v.p.z
-                                                  : (double)vec3_length(v.p);
-    p->a.at = (float)(at / p->w->unit);
+    p->a.at = (float)walk_place(p, v.p);
     p->a.medium = event->medium;
 }
 
