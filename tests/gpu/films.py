@@ -273,6 +273,9 @@ def full_row(films, scene, left, words):
     try:
         seconds, frames = films.finish(scene, "part",
                                        ["--backend", "auto", *words])
+    except SystemExit as failed:
+        print(failed)
+        return {"what": f"{left} MiB left", "how": "failed", "passed": False}
     finally:
         hold.communicate()
     good, count = films.same("part", "whole")
