@@ -80,41 +80,131 @@ static float heat_weight(const struct glow_job *job, float temperature)
     return job->heat[i] + (at - (float)i) * (job->heat[i + 1] - job->heat[i]);
 }
 
-/* What two points weigh, by the table. */
-static float twin_heat(const struct glow_job *job, const twin_point *x)
+/* ---- by temperatures alone ----------------------------------------------- */
+
+/* The eighths of a voxel. Most often all lie in one voxel of the lead's grid,
+ * which their ends, the first and the last, tell. */
+struct eighths {
+    const struct glow_job *job;
+    const glow_brick *brick;
+    int voxel;
+    twin_point ends;
+};
+
+/* Of two of them. */
+static twin_point eighths_pair(const struct eighths *e, int i, int j)
 {
-    const flat_scene *s = &job->flat->view;
-    const flat_medium *m = job->medium;
-    twin_float much = {1.0f, 1.0f}, hot;
-    if (!m->additive) {
-        twin_rgb density = twin_density(s, m, x);
-        much.a = density.a.r;
-        much.b = density.b.r;
-    }
-    if (m->amount >= 0 && (much.a != 0.0f || much.b != 0.0f)) {
-        twin_float amount = twin_eval(s, scene_amount(s, m), x);
-        much.a *= amount.a;
-        much.b *= amount.b;
-    }
-    if (much.a == 0.0f && much.b == 0.0f)
-        return 0.0f;
-    hot = twin_eval(s, scene_temperature(s, m), x);
-    return much.a * heat_weight(job, hot.a) + much.b * heat_weight(job, hot.b);
+    return twin_point_of(&e->job->flat->view, e->job->medium,
+                         eighth(e->job, e->brick, e->voxel, i),
+                         eighth(e->job, e->brick, e->voxel, j));
 }
+
+/* Between a voxel's samples, axis by axis: as grid_trilinear. */
+static void eighths_within(const struct eighths *e, const grid_voxel *v,
+                           float out[8])
+{
+    vec3 a = e->ends.in_a, b = e->ends.in_b;
+    grid_eight c = grid_load(v->sample);
+    float x[8], y[8];
+    for (int i = 0; i < 8; i += 2) {
+        x[i] = grid_lerp(c.v[i], c.v[i + 1], a.x);
+        x[i + 1] = grid_lerp(c.v[i], c.v[i + 1], b.x);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int k = 0; k < 2; k++) {
+            y[i + k] = grid_lerp(x[i + k], x[i + k + 2], a.y);
+            y[i + k + 2] = grid_lerp(x[i + k], x[i + k + 2], b.y);
+        }
+    for (int i = 0; i < 4; i++) {
+        out[i] = grid_lerp(y[i], y[i + 4], a.z);
+        out[i + 4] = grid_lerp(y[i], y[i + 4], b.z);
+    }
+}
+
+/* Of a grid that has them in the same voxel. */
+static void eighths_share(const struct eighths *e, const flat_grid *g,
+                          float out[8])
+{
+    grid_voxel v = grid_voxel_at(&e->job->flat->view, g, e->ends.brick,
+                                 e->ends.sample);
+    if (v.stored)
+        eighths_within(e, &v, out);
+    for (int i = 0; !v.stored && i < 8; i++)
+        out[i] = v.value;
+}
+
+/* Of any field. */
+static void eighths_apart(const struct eighths *e, const flat_field *f,
+                          float out[8])
+{
+    for (int i = 0; i < 8; i += 2) {
+        twin_point x = eighths_pair(e, i, i + 1);
+        twin_float pair = twin_eval(&e->job->flat->view, f, &x);
+        out[i] = pair.a;
+        out[i + 1] = pair.b;
+    }
+}
+
+/* Multiplies by a field. Whether anything is left. */
+static bool eighths_times(const struct eighths *e, const flat_field *f,
+                          float out[8])
+{
+    const flat_scene *s = &e->job->flat->view;
+    bool fits = !field_is_function(f) && twin_fits(s, f, &e->ends);
+    float factor[8], scale = fits ? f->scale : 1.0f, most = 0.0f;
+    if (fits)
+        eighths_share(e, scene_grid(s, f), factor);
+    else
+        eighths_apart(e, f, factor);
+    for (int i = 0; i < 8; i++) {
+        out[i] *= scale * factor[i];
+        most = hd_max(most, fabsf(out[i]));
+    }
+    return most > 0.0f;
+}
+
+/* How much is hot at each; false: nothing is. */
+static bool eighths_much(const struct eighths *e, float out[8])
+{
+    const flat_scene *s = &e->job->flat->view;
+    const flat_medium *m = e->job->medium;
+    for (int i = 0; i < 8; i++)
+        out[i] = 1.0f;
+    for (int k = 0; !m->additive && k < m->densities; k++)
+        if (!eighths_times(e, scene_density(s, m, k), out))
+            return false;
+    for (int i = 0; !m->additive && i < 8; i++)
+        out[i] = hd_min(out[i], m->densest);
+    return m->amount < 0 || eighths_times(e, scene_amount(s, m), out);
+}
+
+/* The sum over them. */
+static float eighths_weight(const struct glow_job *job, const glow_brick *b,
+                            int voxel)
+{
+    struct eighths e = {.job = job, .brick = b, .voxel = voxel};
+    float much[8], kelvin[8] = {1, 1, 1, 1, 1, 1, 1, 1}, sum = 0.0f;
+    e.ends = eighths_pair(&e, 0, 7);
+    if (!eighths_much(&e, much))
+        return 0.0f;
+    eighths_times(&e, scene_temperature(&job->flat->view, job->medium), kelvin);
+    for (int i = 0; i < 8; i++)
+        sum += much[i] * heat_weight(job, kelvin[i]);
+    return sum;
+}
+
+/* ---- of any colour ------------------------------------------------------- */
 
 static float twin_weight(const struct glow_job *job, const twin_point *x)
 {
     const flat_scene *s = &job->flat->view;
-    if (job->heat)
-        return twin_heat(job, x);
     twin_rgb density = twin_density(s, job->medium, x);
     twin_rgb q = twin_source(s, job->medium, x, &density);
     return color_weight(q.a) + color_weight(q.b);
 }
 
-/* Mean over the centres of the voxel's eighths. */
-static float voxel_weight(const struct glow_job *job, const glow_brick *b,
-                          int voxel)
+static float color_eighths(const struct glow_job *job, const glow_brick *b,
+                           int voxel)
 {
     float sum = 0.0f;
     for (int i = 0; i < 8; i += 2) {
@@ -123,6 +213,17 @@ static float voxel_weight(const struct glow_job *job, const glow_brick *b,
                                      eighth(job, b, voxel, i + 1));
         sum += twin_weight(job, &x);
     }
+    return sum;
+}
+
+/* ---- bricks -------------------------------------------------------------- */
+
+/* Mean over the centres of the voxel's eighths. */
+static float voxel_weight(const struct glow_job *job, const glow_brick *b,
+                          int voxel)
+{
+    float sum = job->heat ? eighths_weight(job, b, voxel)
+                          : color_eighths(job, b, voxel);
     return isfinite(sum) ? sum / 8.0f : 0.0f;
 }
 
