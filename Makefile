@@ -116,8 +116,8 @@ $(B)/libbrume.a: $(CORE) $(LIB)
 $(B)/%.o: %.c
 	$(call run,cc,$(C) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<)
 
-# What a film's every cell passes through: with vectors.
-$(call objects,$(wildcard core/filter*.c)): C += $(if $(filter 0,$(SAN)),-O3)
+# What all cells of films and all voxels that glow pass through: with vectors.
+$(call objects,$(wildcard core/filter*.c) core/prepare_glow.c): C += $(if $(filter 0,$(SAN)),-O3)
 
 # The scanner and the grammar of the scene language.
 $(B)/parser/lexer.c: parser/lexer.l
