@@ -6,13 +6,13 @@
  * there are. They tell what they warn of and how far they are by way of the
  * caller's. */
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "core/shot.h"
 #include "lib/memory.h"
+#include "lib/thread.h"
 
 /* The first three are those of a frame that is pushed, the next two of a
  * picture that is asked for. */
@@ -312,7 +312,7 @@ static bool start_one(struct brume_film *film, struct brume_error *err)
     *worker = (struct worker){.film = film, .number = film->workers};
     if (film->workers > 0 && !(worker->still = brume_still_new(err)))
         return false;
-    int reason = pthread_create(&worker->thread, NULL, run_worker, worker);
+    int reason = thread_begin(&worker->thread, run_worker, worker);
     film->workers += reason == 0;
     if (reason == 0)
         return true;
@@ -322,22 +322,17 @@ static bool start_one(struct brume_film *film, struct brume_error *err)
                       strerror(reason));
 }
 
-/* Signals are for the caller's thread. */
 static bool start(struct brume_film *film, const struct brume_options *first,
                   struct brume_error *err)
 {
-    sigset_t all, before;
     int count = film->wanted;
     /* A limit is to hold whichever thread is how far. */
     film->serial = first->threads == 1 || first->memory > 0;
     film->first = *first;
     film->worker = memory_new((size_t)count, sizeof *film->worker, err);
     bool good = film->worker;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
     while (good && film->workers < count)
         good = start_one(film, err);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
     return good;
 }
 

@@ -178,3 +178,13 @@ bool parallel_for(int threads, size_t count, parallel_body *body, void *context,
         close_loop(&loop);
     return atomic_load(&loop.next) >= count;
 }
+
+int thread_begin(pthread_t *thread, void *(*run)(void *), void *context)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int reason = pthread_create(thread, NULL, run, context);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return reason;
+}

@@ -1,4 +1,4 @@
-/* thread.h - one parallel loop over indices, on POSIX threads.
+/* thread.h - one parallel loop over indices, on POSIX threads; a thread.
  *
  * Indices are handed out one by one as threads come free, so which thread
  * runs an index differs from run to run: a body writes only what belongs to
@@ -11,6 +11,7 @@ using std::atomic_bool;
 #else
 #include <stdatomic.h>
 #endif
+#include <pthread.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -27,4 +28,8 @@ typedef void parallel_body(void *context, size_t index, int thread);
  * index ran, false when it was cancelled before. */
 bool parallel_for(int threads, size_t count, parallel_body *body,
                   void *context, const atomic_bool *cancel);
+
+/* Starts a thread, to be joined. Signals are for the others. 0, or the number of
+ * the error with which the system refuses it. */
+int thread_begin(pthread_t *thread, void *(*run)(void *), void *context);
 #endif

@@ -1,12 +1,11 @@
 /* The film: scenes are read ahead of the picture that is rendered, as far as
- * its filter reaches, and pictures are written behind it. */
+ * its filter reaches, and pictures are written behind it, beside the reading. */
 #include "lib/hash.h"
 #include "lib/memory.h"
-#include "lib/timer.h"
 #include "parser/naming.h"
 #include "parser/origins.h"
-#include "parser/picture.h"
 #include "parser/reel_parts.h"
+#include "parser/reel_write.h"
 #include "parser/settings.h"
 #include <inttypes.h>
 #include <stdlib.h>
@@ -36,65 +35,13 @@ struct film_run {
     size_t readings, room;
     struct order order[MOST_ORDERS];
     int orders;
+    struct order written; /* whose picture is being written             */
+    struct reel_write write;
+    bool writes;
     int workers; /* 0: not known yet                            */
 };
 
-/* ---- writing ----------------------------------------------------------- */
-
-/* What an EXR says of itself: nothing that differs from run to run. */
-enum { TEXTS = 6, TEXT_SIZE = 64 };
-
-static size_t describe(const struct reel *reel, const struct reel_record *r,
-                       struct exr_text text[TEXTS],
-                       char value[TEXTS][TEXT_SIZE])
-{
-    size_t count = 0;
-    const char *slash = strrchr(reel->options->input, '/');
-    text[count++] = (struct exr_text){"software", "Brume " BRUME_VERSION};
-    text[count++] = (struct exr_text){
-        "scene",
-        slash ? slash + 1 : reel->options->input,
-    };
-    if (reel->frames.animation) {
-        snprintf(value[count], TEXT_SIZE, "%d", r->number);
-        text[count] = (struct exr_text){"frame", value[count]};
-        count++;
-    }
-    if (r->clock_on) {
-        snprintf(value[count], TEXT_SIZE, "%.17g", r->clock);
-        text[count] = (struct exr_text){"clock", value[count]};
-        count++;
-    }
-    snprintf(value[count], TEXT_SIZE, "%d", r->stats.spp);
-    text[count] = (struct exr_text){"samplesPerPixel", value[count]};
-    count++;
-    snprintf(value[count], TEXT_SIZE, "%.6g", r->stats.error);
-    text[count] = (struct exr_text){"relativeError", value[count]};
-    return count + 1;
-}
-
-static bool write_frame(struct reel *reel, const struct brume_frame *frame,
-                        struct reel_record *record, struct brume_error *err)
-{
-    const struct options *options = reel->options;
-    struct exr_text text[TEXTS];
-    char value[TEXTS][TEXT_SIZE];
-    struct picture picture = {
-        .frame = frame,
-        .format = naming_format(options),
-        .bits = options->bits,
-        .alpha = options->alpha,
-        .text = text,
-        .texts = describe(reel, record, text, value),
-        .threads = options->threads,
-    };
-    if (!options->to_file)
-        return true;
-    double start = timer_seconds();
-    bool ok = picture_write(&picture, record->picture, reel->events->out, err);
-    record->seconds_write = timer_seconds() - start;
-    return ok;
-}
+/* ---- pictures that are written ------------------------------------------- */
 
 static double all_seconds(const struct reel_record *r)
 {
@@ -315,57 +262,81 @@ static bool forget_below(struct film_run *run, int64_t number,
 
 /* ---- orders ------------------------------------------------------------ */
 
-/* Where the picture of an order goes. */
-static bool keep_picture(struct film_run *run, struct order *order,
-                         const struct brume_frame *frame,
+static void end_order(struct film_run *run, struct order *order, bool good)
+{
+    if (run->reel->partials)
+        partial_end(run->reel->partials, (uint32_t)order->record.number, !good);
+    parse_origins_release(&order->origins);
+}
+
+/* Waits for the picture that is being written, if there is one. */
+static enum brume_code finish_writing(struct film_run *run)
+{
+    struct reel *reel = run->reel;
+    struct order *order = &run->written;
+    struct reel_record *record = &order->record;
+    struct brume_error *err = &run->write.err;
+    if (!run->writes)
+        return BRUME_OK;
+    run->writes = false;
+    bool good = reel_write_end(&run->write) &&
+                note_picture(reel, record, &order->origins, err) &&
+                keep_record(reel, record, err);
+    if (good)
+        reel->events->finished(reel->events->user, record);
+    end_order(run, order, good);
+    return good ? BRUME_OK : reel_fail(reel, err);
+}
+
+static void begin_writing(struct film_run *run, const struct order *order,
+                          const struct brume_frame *frame)
+{
+    run->written = *order;
+    run->write = (struct reel_write){
+        .reel = run->reel, .record = &run->written.record, .frame = *frame};
+    run->writes = true;
+    reel_write_begin(&run->write);
+}
+
+/* Waits for an order's picture, and sends it where it goes. */
+static bool take_picture(struct film_run *run, struct order *order,
                          struct brume_error *err)
 {
     struct reel *reel = run->reel;
-    struct reel_record *record = &order->record;
     const struct reel_sink *sink = reel->sink;
-    if (sink)
-        return sink->take(sink->user, record->number, frame, err);
-    if (!write_frame(reel, frame, record, err) ||
-        !note_picture(reel, record, &order->origins, err) ||
-        !keep_record(reel, record, err))
-        return false;
-    reel->events->finished(reel->events->user, record);
-    return true;
-}
-
-static bool finish_picture(struct film_run *run, struct order *order,
-                           struct brume_error *err)
-{
-    struct reel *reel = run->reel;
     struct brume_frame frame = {0};
-    struct reel_record *record = &order->record;
     if (!brume_film_next(run->film, &frame, err))
         return false;
-    record->stats = frame.stats;
+    order->record.stats = frame.stats;
     warn_of_samples(reel, &frame.stats);
-    bool ok = keep_picture(run, order, &frame, err);
+    if (!sink) {
+        begin_writing(run, order, &frame);
+        return true;
+    }
+    bool good = sink->take(sink->user, order->record.number, &frame, err);
     brume_frame_free(&frame);
-    return ok;
+    return good;
 }
 
-/* Waits for the picture of the first order and writes it. */
+/* Waits for the picture of the first order, and for that which is written. */
 static enum brume_code finish_order(struct film_run *run)
 {
-    struct reel *reel = run->reel;
-    const struct reel_events *events = reel->events;
-    struct order order = run->order[0];
+    const struct reel_events *events = run->reel->events;
     struct brume_error err = {0};
+    enum brume_code code = finish_writing(run);
+    if (code)
+        return code;
     if (events->stopped(events->user))
         return BRUME_STOPPED;
+    struct order order = run->order[0];
     run->orders--;
     memmove(run->order, run->order + 1,
             (size_t)run->orders * sizeof *run->order);
-    events->frame(events->user, &reel->frames, order.record.number);
-    bool ok = finish_picture(run, &order, &err);
-    if (reel->partials)
-        partial_end(reel->partials, (uint32_t)order.record.number, !ok);
-    parse_origins_release(&order.origins);
-    return ok ? BRUME_OK : reel_fail(reel, &err);
+    events->frame(events->user, &run->reel->frames, order.record.number);
+    bool good = take_picture(run, &order, &err);
+    if (!run->writes)
+        end_order(run, &order, good);
+    return good ? BRUME_OK : reel_fail(run->reel, &err);
 }
 
 static bool add_order(struct film_run *run, const struct reading *reading,
@@ -448,10 +419,11 @@ static enum brume_code finish_orders(struct film_run *run, enum brume_code code)
     while (run->orders > 0 && code != BRUME_STOPPED) {
         enum brume_code now = finish_order(run);
         if (now && code)
-            return code;
+            break;
         code = code ? code : now;
     }
-    return code;
+    enum brume_code last = finish_writing(run);
+    return code ? code : last;
 }
 
 static enum brume_code run_frames(struct film_run *run)

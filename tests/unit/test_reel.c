@@ -144,8 +144,8 @@ static void test_reel__film(void **state)
     stop_after = -1;
     assert_int_equal(RUN(clock_scene, "-", "+KFF10", "+STP4", "+Oa.exr"),
                      BRUME_OK);
-    assert_string_equal(told, "clock 0.00; clock 0.44; frame 1; a01.exr; "
-                              "clock 0.89; frame 5; a05.exr; "
+    assert_string_equal(told, "clock 0.00; clock 0.44; frame 1; clock 0.89; "
+                              "a01.exr; frame 5; a05.exr; "
                               "frame 9; a09.exr; ");
     assert_true(is_there("a01.exr") && is_there("a09.exr"));
 }
