@@ -29,7 +29,7 @@ typedef void parallel_body(void *context, size_t index, int thread);
 bool parallel_for(int threads, size_t count, parallel_body *body,
                   void *context, const atomic_bool *cancel);
 
-/* Starts a thread, to be joined. Signals are for the others. 0, or the number of
- * the error with which the system refuses it. */
+/* Starts a thread, to be joined. Signals are for the others. 0, or the number
+ * of the error with which the system refuses it. */
 int thread_begin(pthread_t *thread, void *(*run)(void *), void *context);
 #endif

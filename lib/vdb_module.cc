@@ -225,11 +225,12 @@ CoordBBox extent(const grid &g)
                                       size.z() * GRID_BRICK - 1));
 }
 
-Coord brick_of(const grid &g, const Coord &at)
+/* Of the brick at i. */
+Coord corner(const grid &g, const Coord &i)
 {
-    return Coord((at.x() - g.origin[0]) / GRID_BRICK,
-                 (at.y() - g.origin[1]) / GRID_BRICK,
-                 (at.z() - g.origin[2]) / GRID_BRICK);
+    return Coord(g.origin[0] + GRID_BRICK * i.x(),
+                 g.origin[1] + GRID_BRICK * i.y(),
+                 g.origin[2] + GRID_BRICK * i.z());
 }
 
 /* A scalar as it is, or that component of a vector. */
@@ -243,55 +244,42 @@ template <typename T> float part_of(const openvdb::math::Vec3<T> &v, int part)
     return static_cast<float>(v[part]);
 }
 
-/* Tiles of any level, active or not, where they reach into the grid. */
-template <typename Tree>
-bool copy_tiles(const Tree &tree, int part, grid &g, brume_error *err)
-{
-    const CoordBBox whole = extent(g);
-    auto tile = tree.cbeginValueAll();
-    tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        const float value = part_of(tile.getValue(), part);
-        if (value == g.tile[0])
-            continue;
-        CoordBBox box;
-        tile.getBoundingBox(box);
-        box.intersect(whole);
-        if (box.empty())
-            continue;
-        const Coord a = brick_of(g, box.min()), b = brick_of(g, box.max());
-        for (int z = a.z(); z <= b.z(); z++)
-            for (int y = a.y(); y <= b.y(); y++)
-                for (int x = a.x(); x <= b.x(); x++)
-                    if (!grid_set_tile(&g, x, y, z, value, err))
-                        return false;
-    }
-    return true;
-}
-
 /* OpenVDB's leaves have z fastest, our bricks x. */
-template <typename Leaf>
-bool copy_leaf(const Leaf &leaf, int part, grid &g, brume_error *err)
+template <typename Leaf> void copy_leaf(const Leaf &leaf, int part, float *to)
 {
-    const Coord at = brick_of(g, leaf.origin());
-    float *brick = grid_brick(&g, at.x(), at.y(), at.z(), err);
-    if (!brick)
-        return false;
     for (openvdb::Index i = 0; i < GRID_BRICK_VOXELS; i++) {
         const Coord in = Leaf::offsetToLocalCoord(i);
-        brick[in.x() + GRID_BRICK * (in.y() + GRID_BRICK * in.z())] = part_of(
+        to[in.x() + GRID_BRICK * (in.y() + GRID_BRICK * in.z())] = part_of(
             leaf.getValue(i), part);
     }
-    return true;
+}
+
+/* The brick at `i`: a leaf, or part of a tile of any level, active or not. */
+template <typename Access>
+bool copy_brick(Access &from, const Coord &i, int part, grid &g,
+                brume_error *err)
+{
+    const Coord at = corner(g, i);
+    if (const auto *leaf = from.probeConstLeaf(at)) {
+        float *to = grid_brick(&g, i.x(), i.y(), i.z(), err);
+        if (to)
+            copy_leaf(*leaf, part, to);
+        return to != nullptr;
+    }
+    const float value = part_of(from.getValue(at), part);
+    return value == g.tile[0] ||
+           grid_set_tile(&g, i.x(), i.y(), i.z(), value, err);
 }
 
 template <typename Tree>
-bool copy_leaves(const Tree &tree, int part, grid &g, brume_error *err)
+bool copy_bricks(const Tree &tree, int part, grid &g, brume_error *err)
 {
-    const CoordBBox whole = extent(g);
-    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
-        if (whole.isInside(leaf->origin()) && !copy_leaf(*leaf, part, g, err))
-            return false;
+    openvdb::tree::ValueAccessor<const Tree> from(tree);
+    for (int z = 0; z < g.bricks[2]; z++)
+        for (int y = 0; y < g.bricks[1]; y++)
+            for (int x = 0; x < g.bricks[0]; x++)
+                if (!copy_brick(from, Coord(x, y, z), part, g, err))
+                    return false;
     return true;
 }
 
@@ -316,7 +304,7 @@ grid *convert(const openvdb::GridBase &base, int part, const vdb_file &file,
         return nullptr;
     std::snprintf(g->name, sizeof g->name, "%s", r.entry.name);
     if (!copy_transform(base, *g, file, err) ||
-        !copy_tiles(tree, part, *g, err) || !copy_leaves(tree, part, *g, err))
+        !copy_bricks(tree, part, *g, err))
         return nullptr;
     g->any_sign = r.entry.vector;
     if (r.entry.vector && r.entry.kind == VDB_STAGGERED)
@@ -419,9 +407,7 @@ void fill_tree(openvdb::FloatTree &tree, const grid &g)
     for (int z = 0; z < g.bricks[2]; z++)
         for (int y = 0; y < g.bricks[1]; y++)
             for (int x = 0; x < g.bricks[0]; x++, slot++) {
-                const Coord at(g.origin[0] + x * GRID_BRICK,
-                               g.origin[1] + y * GRID_BRICK,
-                               g.origin[2] + z * GRID_BRICK);
+                const Coord at = corner(g, Coord(x, y, z));
                 if (*slot >= 0)
                     fill_leaf(tree, g, at,
                               g.voxel + static_cast<size_t>(*slot) *

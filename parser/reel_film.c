@@ -1,5 +1,5 @@
 /* The film: scenes are read ahead of the picture that is rendered, as far as
- * its filter reaches, and pictures are written behind it, beside the reading. */
+ * its filter reaches; pictures are written behind it, beside the reading. */
 #include "lib/hash.h"
 #include "lib/memory.h"
 #include "parser/naming.h"
