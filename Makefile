@@ -116,8 +116,8 @@ $(B)/libbrume.a: $(CORE) $(LIB)
 $(B)/%.o: %.c
 	$(call run,cc,$(C) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<)
 
-# What all cells of films and all voxels that glow pass through: with vectors.
-$(call objects,$(wildcard core/filter*.c) core/prepare_glow.c): C += $(if $(filter 0,$(SAN)),-O3)
+# What all voxels of grids and all cells of films pass through: with vectors.
+$(call objects,$(wildcard core/filter*.c) core/prepare_glow.c lib/grid.c): C += $(if $(filter 0,$(SAN)),-O3)
 
 # The scanner and the grammar of the scene language.
 $(B)/parser/lexer.c: parser/lexer.l

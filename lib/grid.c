@@ -1,4 +1,5 @@
 #include "lib/grid.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,6 +177,15 @@ static float clean(struct grid *g, float value, size_t samples)
     return 0;
 }
 
+static bool is_clean(const struct grid *g, const float *brick)
+{
+    float least = g->any_sign ? -FLT_MAX : 0.0f;
+    int bad = 0;
+    for (int v = 0; v < GRID_BRICK_VOXELS; v++)
+        bad |= !((brick[v] >= least) & (brick[v] <= FLT_MAX));
+    return !bad;
+}
+
 static void clean_samples(struct grid *g)
 {
     size_t slots = brick_count(g);
@@ -186,6 +196,8 @@ static void clean_samples(struct grid *g)
             continue;
         }
         float *brick = g->voxel + (size_t)slot * GRID_BRICK_VOXELS;
+        if (is_clean(g, brick))
+            continue;
         for (int v = 0; v < GRID_BRICK_VOXELS; v++)
             brick[v] = clean(g, brick[v], 1);
     }
@@ -297,23 +309,36 @@ static void compact_bricks(struct grid *g)
     free(place);
 }
 
-/* Numbers that are finite: fminf would be a call for each. */
-static void widen(struct grid *g, const float *x, size_t count)
+static void widen(struct grid *g, float low, float high)
 {
-    float low = g->lowest, high = g->highest;
-    for (size_t i = 0; i < count; i++) {
-        low = x[i] < low ? x[i] : low;
-        high = x[i] > high ? x[i] : high;
-    }
-    g->lowest = low;
-    g->highest = high;
+    g->lowest = low < g->lowest ? low : g->lowest;
+    g->highest = high > g->highest ? high : g->highest;
+}
+
+/* Numbers that are finite, side by side: fminf would be a call for each. */
+static void widen_by_brick(struct grid *g, const float *brick)
+{
+    enum { LANES = 8 };
+    float low[LANES], high[LANES];
+    for (int k = 0; k < LANES; k++)
+        low[k] = high[k] = brick[k];
+    for (int i = LANES; i < GRID_BRICK_VOXELS; i += LANES)
+        for (int k = 0; k < LANES; k++) {
+            float x = brick[i + k];
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
+        }
+    for (int k = 0; k < LANES; k++)
+        widen(g, low[k], high[k]);
 }
 
 static void find_range(struct grid *g)
 {
     g->lowest = g->highest = g->tile[0];
-    widen(g, g->tile, g->tiles);
-    widen(g, g->voxel, g->stored * GRID_BRICK_VOXELS);
+    for (size_t i = 0; i < g->tiles; i++)
+        widen(g, g->tile[i], g->tile[i]);
+    for (size_t i = 0; i < g->stored; i++)
+        widen_by_brick(g, g->voxel + i * GRID_BRICK_VOXELS);
 }
 
 /* The capacity that grow() counts on for so many items. */

@@ -46,6 +46,14 @@ static void widen(struct box *box, const int32_t p[3])
     }
 }
 
+static bool has_brick(const struct box *box, const int32_t corner[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (corner[i] < box->low[i] || corner[i] + 7 > box->high[i])
+            return false;
+    return true;
+}
+
 static void widen_by_brick(struct box *box, const struct grid *grid,
                            int32_t slot, const int32_t corner[3])
 {
@@ -75,7 +83,7 @@ static struct box box_of(const struct grid *grid)
                 int32_t corner[3] = {grid->origin[0] + 8 * x,
                                      grid->origin[1] + 8 * y,
                                      grid->origin[2] + 8 * z};
-                if (grid->slot[brick] != -1)
+                if (grid->slot[brick] != -1 && !has_brick(&box, corner))
                     widen_by_brick(&box, grid, grid->slot[brick], corner);
             }
     return box;
