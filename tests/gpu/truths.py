@@ -10,7 +10,7 @@ import time
 PROCESSES = 12
 SETTINGS = {"truths": {"WALK": "-1", "PIXELS": "256", "SECONDS_A_ROW": "120",
                        "PICTURE_SECONDS": "1.5", "FIRST_SECONDS": "15"},
-            "walks": {"WALK": "1", "PIXELS": "64", "SECONDS_A_ROW": "350"}}
+            "walks": {"WALK": "1", "PIXELS": "64", "SECONDS_A_ROW": "460"}}
 TRUTH = re.compile(r"(not )?ok (.*): (\S+), truth (\S+), SE (\S+) of it, "
                    r"z (\S+), of its picture \S+, (\S+) s, (\S+?)"
                    r"(, short)?$")
@@ -38,9 +38,9 @@ def sums_of(family, rows):
             "passed": all(row["passed"] and row["reached"] for row in rows)}
 
 
-def run(programs, room, part, until):
+def run(programs, room, part, seconds):
     """The rows that processes with a common queue came to, and whether all
-    ended well and in time."""
+    ended well and in little more than that time."""
     queue = os.path.join(room, f"{part}-queue")
     if os.path.exists(queue):
         os.remove(queue)
@@ -52,10 +52,12 @@ def run(programs, room, part, until):
                 [os.path.join(programs, "test_truth_tables"), "all"],
                 stdout=out,
                 env={**os.environ, "BACKEND": "cuda", "RELATIVE": "1e-4",
-                     "QUEUE": queue, **SETTINGS[part]}))
+                     "SECONDS": str(seconds), "QUEUE": queue,
+                     **SETTINGS[part]}))
+    end = time.monotonic() + seconds + 15
     for p in running:
         try:
-            p.wait(max(until - time.monotonic(), 0.1))
+            p.wait(max(end - time.monotonic(), 0.1))
         except subprocess.TimeoutExpired:
             p.kill()
     good = all(p.wait() in (0, 1) for p in running)
@@ -66,8 +68,8 @@ def run(programs, room, part, until):
 def rows(programs, room, out, part):
     """All rows of a part, for eight minutes at most: those that failed or are
     short; each table's sums; whether it came to its end."""
-    end = time.monotonic() + float(os.environ.get("TRUTHS_SECONDS", 470))
-    found, ended = run(programs, room, part, end)
+    seconds = float(os.environ.get("TRUTHS_SECONDS", 455))
+    found, ended = run(programs, room, part, seconds)
     with open(os.path.join(out, f"{part}_all.json"), "w") as f:
         json.dump(found, f, indent=1)
     families = itertools.groupby(sorted(found, key=lambda row: row["row"]),

@@ -9,8 +9,9 @@
  * would take more than PICTURE_SECONDS (2) of the processor for that, the
  * row's scene is walked through (truth_walk.h), if it may be. WALK=1 does
  * nothing but such walks, WALK=-1 nothing but pictures, which then are as good
- * as they get. What takes more than SECONDS_A_ROW (60) is `short`: the error it
- * reached is told, and z still holds. RELATIVE=1e-4 asks for more.
+ * as they get. What takes more than SECONDS_A_ROW (60), or than is left of
+ * SECONDS for all, is `short`: the error it reached is told, and z still holds.
+ * RELATIVE=1e-4 asks for more.
  * BACKEND=cuda draws and walks on a GPU, and seconds are the clock's.
  * PIXELS=256 makes pictures larger than 16 x 16, as far as all batches are done
  * in time; FIRST_SECONDS=20 leaves them out where the smallest would take
@@ -469,7 +470,8 @@ int main(int argc, char **argv)
     int count = all_rows(rows), bad = 0;
     bool table = argc > 1 && strcmp(argv[1], "table") == 0;
     bool sample = argc < 2;
-    double seconds = setting("SECONDS_A_ROW", 60.0);
+    double seconds = setting("SECONDS_A_ROW", 60.0), start = seconds_now();
+    double all = setting("SECONDS", INFINITY);
     if (table)
         printf("| row | truth | mean | SE / truth | z | z of its picture | "
                "CPU s | by |\n"
@@ -478,7 +480,8 @@ int main(int argc, char **argv)
         struct result r = {0};
         if (sample ? !rows[i].sample : !asked(rows[i].name, argc - 2, argv + 2))
             continue;
-        if (!run_row(&rows[i], first_frame(i), seconds, &r))
+        double left = fmax(all - (seconds_now() - start), 0.0);
+        if (!run_row(&rows[i], first_frame(i), fmin(seconds, left), &r))
             continue;
         report(&rows[i], &r, table);
         bad += !holds(&r) || (sample && !r.reached);
