@@ -257,34 +257,38 @@ HD double walk_turn_wide(const struct walk_plan *p, double u, double *weight)
     return u;
 }
 
-/* Of four directions that are as likely, one that leads on more often. */
+/* Of some directions that are as likely, one that leads on more often: more of
+ * them where few that are likely do. */
 HD vec3 walk_turn_peaked(struct walk_path *p)
 {
+    enum { MOST = 16 };
     const struct walk_map *map = &p->w->map;
     const flat_medium *m = &p->scene->media[p->a.medium];
-    double u = 0.5 * walk_number(p, WALK_TURN), all = 0.0;
-    double v = 0.5 * walk_number(p, WALK_AROUND), value[4], weight[4];
-    vec3 o, old, d[4];
+    int parts = map->plan.g > 0.7 ? 8 : 4, ways = 2 * parts, k = -1;
+    double u = walk_number(p, WALK_TURN) / parts, all = 0.0;
+    double v = 0.5 * walk_number(p, WALK_AROUND), value[MOST], weight[MOST];
+    vec3 o, old, d[MOST];
     float pdf;
     walk_ray(p, &o, &old);
-    for (int k = 0; k < 4; k++) {
-        weight[k] = p->a.weight;
-        double x = walk_turn_wide(&map->plan, k < 2 ? u : 1.0 - u, &weight[k]);
-        d[k] = phase_sample(m->phase, m->g, old, (float)x,
-                            (float)(v + 0.5 * (k % 2)), &pdf);
-        value[k] = weight[k] *
-                       walk_ahead(map, (double)p->a.at, (double)d[k].z) +
+    for (int i = 0; i < ways; i++) {
+        int part = i / 2;
+        double x = (part % 2 ? 1.0 / parts - u : u) + (double)part / parts;
+        weight[i] = p->a.weight;
+        x = walk_turn_wide(&map->plan, x, &weight[i]);
+        d[i] = phase_sample(m->phase, m->g, old, (float)x,
+                            (float)(v + 0.5 * (i % 2)), &pdf);
+        value[i] = weight[i] *
+                       walk_ahead(map, (double)p->a.at, (double)d[i].z) +
                    1e-300;
-        all += value[k];
+        all += value[i];
     }
     double left = walk_number(p, WALK_PICK), chance;
-    int k = -1;
     do {
         k++;
-        chance = 0.0125 + 0.95 * value[k] / all;
+        chance = 0.05 / ways + 0.95 * value[k] / all;
         left -= chance;
-    } while (k < 3 && left >= 0.0);
-    p->a.weight = weight[k] * 0.25 / chance;
+    } while (k < ways - 1 && left >= 0.0);
+    p->a.weight = weight[k] / (ways * chance);
     return d[k];
 }
 
@@ -338,11 +342,20 @@ HD uint32_t walk_key(const struct walk *w, const struct walker *a, double x,
     return layer << 8 | (layer & 1u ? 255u - y : y);
 }
 
+/* Walkers that stand for less of a usual one are ended at random: what was
+ * found to leave the least noise for the time. */
+HD double walk_least(const struct walk_plan *p)
+{
+    if (p->space == WALK_SPACE)
+        return 0.25;
+    return p->target > 0.0 ? 0.1 : 0.4;
+}
+
 /* How many usual walkers one stands for; false if it is left as it is. */
 HD bool walk_is_split(const struct walk *w, const struct walker *a,
                       double *share)
 {
-    double least = w->map.plan.space == WALK_SLAB ? 0.1 : 0.5;
+    double least = walk_least(&w->map.plan);
     *share = walk_worth(w, a) / w->share;
     if (*share >= least && *share <= 3.0)
         return false;
