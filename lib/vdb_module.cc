@@ -1,4 +1,5 @@
 #include "lib/vdb_module.h"
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -216,21 +217,18 @@ grid *make_grid(const CoordBBox &active, float background, const vdb_file &file,
     return g;
 }
 
-CoordBBox extent(const grid &g)
-{
-    Coord min(g.origin[0], g.origin[1], g.origin[2]);
-    Coord size(g.bricks[0], g.bricks[1], g.bricks[2]);
-    return CoordBBox(min, min + Coord(size.x() * GRID_BRICK - 1,
-                                      size.y() * GRID_BRICK - 1,
-                                      size.z() * GRID_BRICK - 1));
-}
-
 /* Of the brick at i. */
 Coord corner(const grid &g, const Coord &i)
 {
     return Coord(g.origin[0] + GRID_BRICK * i.x(),
                  g.origin[1] + GRID_BRICK * i.y(),
                  g.origin[2] + GRID_BRICK * i.z());
+}
+
+CoordBBox extent(const grid &g)
+{
+    const Coord end(g.bricks[0], g.bricks[1], g.bricks[2]);
+    return CoordBBox(corner(g, Coord(0)), corner(g, end).offsetBy(-1));
 }
 
 /* A scalar as it is, or that component of a vector. */
@@ -254,21 +252,38 @@ template <typename Leaf> void copy_leaf(const Leaf &leaf, int part, float *to)
     }
 }
 
-/* The brick at `i`: a leaf, or part of a tile of any level, active or not. */
-template <typename Access>
-bool copy_brick(Access &from, const Coord &i, int part, grid &g,
-                brume_error *err)
+/* Bricks along x, from the one at `at` on, of the tile there, which is no leaf.
+ * Of what is not stored at all the depth is -1. */
+template <typename Tree, typename Access>
+int tile_bricks(Access &from, const Coord &at)
 {
-    const Coord at = corner(g, i);
-    if (const auto *leaf = from.probeConstLeaf(at)) {
-        float *to = grid_brick(&g, i.x(), i.y(), i.z(), err);
-        if (to)
+    using Upper = typename Tree::RootNodeType::ChildNodeType;
+    const int sides[] = {Upper::DIM, Upper::ChildNodeType::DIM, GRID_BRICK};
+    const int side = sides[std::max(from.getValueDepth(at), 0)];
+    return (side - (at.x() & (side - 1))) / GRID_BRICK;
+}
+
+/* Leaves, and tiles of any level, active or not. */
+template <typename Tree, typename Access>
+bool copy_row(Access &from, int y, int z, int part, grid &g, brume_error *err)
+{
+    for (int x = 0; x < g.bricks[0];) {
+        const Coord at = corner(g, Coord(x, y, z));
+        if (const auto *leaf = from.probeConstLeaf(at)) {
+            float *to = grid_brick(&g, x++, y, z, err);
+            if (!to)
+                return false;
             copy_leaf(*leaf, part, to);
-        return to != nullptr;
+            continue;
+        }
+        const float value = part_of(from.getValue(at), part);
+        const int end = std::min(x + tile_bricks<Tree>(from, at), g.bricks[0]);
+        for (; value != g.tile[0] && x < end; x++)
+            if (!grid_set_tile(&g, x, y, z, value, err))
+                return false;
+        x = end;
     }
-    const float value = part_of(from.getValue(at), part);
-    return value == g.tile[0] ||
-           grid_set_tile(&g, i.x(), i.y(), i.z(), value, err);
+    return true;
 }
 
 template <typename Tree>
@@ -277,9 +292,8 @@ bool copy_bricks(const Tree &tree, int part, grid &g, brume_error *err)
     openvdb::tree::ValueAccessor<const Tree> from(tree);
     for (int z = 0; z < g.bricks[2]; z++)
         for (int y = 0; y < g.bricks[1]; y++)
-            for (int x = 0; x < g.bricks[0]; x++)
-                if (!copy_brick(from, Coord(x, y, z), part, g, err))
-                    return false;
+            if (!copy_row<Tree>(from, y, z, part, g, err))
+                return false;
     return true;
 }
 
