@@ -80,15 +80,13 @@ static float heat_weight(const struct glow_job *job, float temperature)
     return job->heat[i] + (at - (float)i) * (job->heat[i + 1] - job->heat[i]);
 }
 
-/* ---- by temperatures alone ----------------------------------------------- */
-
-/* The eighths of a voxel. Most often all lie in one voxel of the lead's grid,
- * which their ends, the first and the last, tell. */
+/* The eighths of a voxel. */
 struct eighths {
     const struct glow_job *job;
     const glow_brick *brick;
     int voxel;
-    twin_point ends;
+    twin_point ends; /* the first and the last: most often all lie in one
+                        voxel of the lead's grid, as these tell            */
 };
 
 /* Of two of them. */
@@ -99,26 +97,18 @@ static twin_point eighths_pair(const struct eighths *e, int i, int j)
                          eighth(e->job, e->brick, e->voxel, j));
 }
 
-/* Between a voxel's samples, axis by axis: as grid_trilinear. */
+/* ---- by temperatures alone ----------------------------------------------- */
+
+/* Between a voxel's samples, which are fetched once. */
 static void eighths_within(const struct eighths *e, const grid_voxel *v,
                            float out[8])
 {
     vec3 a = e->ends.in_a, b = e->ends.in_b;
     grid_eight c = grid_load(v->sample);
-    float x[8], y[8];
-    for (int i = 0; i < 8; i += 2) {
-        x[i] = grid_lerp(c.v[i], c.v[i + 1], a.x);
-        x[i + 1] = grid_lerp(c.v[i], c.v[i + 1], b.x);
-    }
-    for (int i = 0; i < 8; i += 4)
-        for (int k = 0; k < 2; k++) {
-            y[i + k] = grid_lerp(x[i + k], x[i + k + 2], a.y);
-            y[i + k + 2] = grid_lerp(x[i + k], x[i + k + 2], b.y);
-        }
-    for (int i = 0; i < 4; i++) {
-        out[i] = grid_lerp(y[i], y[i + 4], a.z);
-        out[i + 4] = grid_lerp(y[i], y[i + 4], b.z);
-    }
+    for (int i = 0; i < 8; i++)
+        out[i] = grid_trilinear(
+            &c,
+            vec3_make(i & 1 ? b.x : a.x, i & 2 ? b.y : a.y, i & 4 ? b.z : a.z));
 }
 
 /* Of a grid that has them in the same voxel. */
@@ -179,15 +169,14 @@ static bool eighths_much(const struct eighths *e, float out[8])
 }
 
 /* The sum over them. */
-static float eighths_weight(const struct glow_job *job, const glow_brick *b,
-                            int voxel)
+static float heat_eighths(struct eighths *e)
 {
-    struct eighths e = {.job = job, .brick = b, .voxel = voxel};
+    const struct glow_job *job = e->job;
     float much[8], kelvin[8] = {1, 1, 1, 1, 1, 1, 1, 1}, sum = 0.0f;
-    e.ends = eighths_pair(&e, 0, 7);
-    if (!eighths_much(&e, much))
+    e->ends = eighths_pair(e, 0, 7);
+    if (!eighths_much(e, much))
         return 0.0f;
-    eighths_times(&e, scene_temperature(&job->flat->view, job->medium), kelvin);
+    eighths_times(e, scene_temperature(&job->flat->view, job->medium), kelvin);
     for (int i = 0; i < 8; i++)
         sum += much[i] * heat_weight(job, kelvin[i]);
     return sum;
@@ -195,23 +184,15 @@ static float eighths_weight(const struct glow_job *job, const glow_brick *b,
 
 /* ---- of any colour ------------------------------------------------------- */
 
-static float twin_weight(const struct glow_job *job, const twin_point *x)
+static float color_eighths(const struct eighths *e)
 {
-    const flat_scene *s = &job->flat->view;
-    twin_rgb density = twin_density(s, job->medium, x);
-    twin_rgb q = twin_source(s, job->medium, x, &density);
-    return color_weight(q.a) + color_weight(q.b);
-}
-
-static float color_eighths(const struct glow_job *job, const glow_brick *b,
-                           int voxel)
-{
+    const flat_scene *s = &e->job->flat->view;
     float sum = 0.0f;
     for (int i = 0; i < 8; i += 2) {
-        twin_point x = twin_point_of(&job->flat->view, job->medium,
-                                     eighth(job, b, voxel, i),
-                                     eighth(job, b, voxel, i + 1));
-        sum += twin_weight(job, &x);
+        twin_point x = eighths_pair(e, i, i + 1);
+        twin_rgb density = twin_density(s, e->job->medium, &x);
+        twin_rgb q = twin_source(s, e->job->medium, &x, &density);
+        sum += color_weight(q.a) + color_weight(q.b);
     }
     return sum;
 }
@@ -222,8 +203,8 @@ static float color_eighths(const struct glow_job *job, const glow_brick *b,
 static float voxel_weight(const struct glow_job *job, const glow_brick *b,
                           int voxel)
 {
-    float sum = job->heat ? eighths_weight(job, b, voxel)
-                          : color_eighths(job, b, voxel);
+    struct eighths e = {.job = job, .brick = b, .voxel = voxel};
+    float sum = job->heat ? heat_eighths(&e) : color_eighths(&e);
     return isfinite(sum) ? sum / 8.0f : 0.0f;
 }
 
