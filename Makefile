@@ -117,7 +117,8 @@ $(B)/%.o: %.c
 	$(call run,cc,$(C) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<)
 
 # What all voxels of grids and all cells of films pass through: with vectors.
-$(call objects,$(wildcard core/filter*.c) core/prepare_glow.c lib/grid.c): C += $(if $(filter 0,$(SAN)),-O3)
+VECTORS  := $(wildcard core/filter*.c) core/prepare_glow.c lib/grid.c
+$(call objects,$(VECTORS)): C += $(if $(filter 0,$(SAN)),-O3)
 
 # The scanner and the grammar of the scene language.
 $(B)/parser/lexer.c: parser/lexer.l

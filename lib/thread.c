@@ -114,25 +114,28 @@ static void begin_child(void)
     pool.workers = 0;
 }
 
-/* Starts the threads that are missing, as far as the system lets it. Signals
- * are for the others. */
+int thread_begin(pthread_t *thread, void *(*run)(void *), void *context)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int reason = pthread_create(thread, NULL, run, context);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return reason;
+}
+
+/* Starts the threads that are missing, as far as the system lets it. */
 static void start_workers(int count)
 {
-    pthread_attr_t detached;
-    sigset_t all, before;
-    if (pool.workers >= count || pthread_attr_init(&detached) != 0)
+    pthread_t thread;
+    if (pool.workers >= count)
         return;
     pool.forks = pool.forks ||
                  pthread_atfork(before_fork, after_fork, begin_child) == 0;
-    pthread_attr_setdetachstate(&detached, PTHREAD_CREATE_DETACHED);
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    pthread_t thread;
-    while (pool.workers < count &&
-           pthread_create(&thread, &detached, work, NULL) == 0)
+    while (pool.workers < count && thread_begin(&thread, work, NULL) == 0) {
+        pthread_detach(thread);
         pool.workers++;
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    pthread_attr_destroy(&detached);
+    }
 }
 
 static void open_loop(struct loop *loop)
@@ -177,14 +180,4 @@ bool parallel_for(int threads, size_t count, parallel_body *body, void *context,
     if (threads > 1)
         close_loop(&loop);
     return atomic_load(&loop.next) >= count;
-}
-
-int thread_begin(pthread_t *thread, void *(*run)(void *), void *context)
-{
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    int reason = pthread_create(thread, NULL, run, context);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    return reason;
 }

@@ -72,7 +72,7 @@ static void *run(void *context)
 /* A limit is to hold whichever thread is how far. */
 static bool goes_beside(const struct options *o)
 {
-    return o->threads != 1 && o->memory == 0;
+    return o->to_file && o->threads != 1 && o->memory == 0;
 }
 
 void reel_write_begin(struct reel_write *w)

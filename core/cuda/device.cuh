@@ -11,8 +11,8 @@
 bool device_check(cudaError_t code, const char *stage,
                   struct brume_error *err);
 
-/* Waits for all launches. One that had no memory for its code or its threads'
- * stacks is told by this, and by no wait. */
+/* Waits for all launches, and tells of one that had no memory for its code or
+ * its threads' stacks, which a wait alone does not. */
 bool device_wait(const char *stage, struct brume_error *err);
 
 /* Memory of the device, in the order of its work. What is freed is kept for
