@@ -52,7 +52,7 @@ def run(programs, room, part, seconds):
                 [os.path.join(programs, "test_truth_tables"), "all"],
                 stdout=out,
                 env={**os.environ, "BACKEND": "cuda", "RELATIVE": "1e-4",
-                     "SECONDS": str(seconds), "QUEUE": queue,
+                     "SECONDS_ALL": str(seconds), "QUEUE": queue,
                      **SETTINGS[part]}))
     end = time.monotonic() + seconds + 15
     for p in running:

@@ -10,13 +10,12 @@
  * row's scene is walked through (truth_walk.h), if it may be. WALK=1 does
  * nothing but such walks, WALK=-1 nothing but pictures, which then are as good
  * as they get. What takes more than SECONDS_A_ROW (60), or than is left of
- * SECONDS for all, is `short`: the error it reached is told, and z still holds.
- * RELATIVE=1e-4 asks for more.
- * BACKEND=cuda draws and walks on a GPU, and seconds are the clock's.
- * PIXELS=256 makes pictures larger than 16 x 16, as far as all batches are done
- * in time; FIRST_SECONDS=20 leaves them out where the smallest would take
- * longer and the row may be walked through. Processes with the same QUEUE=file
- * share the rows.
+ * SECONDS_ALL for all rows, is `short`: the error it reached is told, and z
+ * still holds. RELATIVE=1e-4 asks for more. BACKEND=cuda draws and walks on a
+ * GPU, and seconds are the clock's. PIXELS=256 makes pictures larger than
+ * 16 x 16, as far as all batches are done in time; FIRST_SECONDS=20 leaves them
+ * out where the smallest would take longer and the row may be walked through.
+ * Processes with the same QUEUE=file share the rows.
  *
  * Walks leave out the path through the whole scene, its boundaries above all.
  * So a picture that was given up counts too, by the same z, with whatever error
@@ -471,7 +470,7 @@ int main(int argc, char **argv)
     bool table = argc > 1 && strcmp(argv[1], "table") == 0;
     bool sample = argc < 2;
     double seconds = setting("SECONDS_A_ROW", 60.0), start = seconds_now();
-    double all = setting("SECONDS", INFINITY);
+    double all = setting("SECONDS_ALL", INFINITY);
     if (table)
         printf("| row | truth | mean | SE / truth | z | z of its picture | "
                "CPU s | by |\n"
