@@ -13,17 +13,17 @@ SETTINGS = {"truths": {"WALK": "-1", "PIXELS": "256", "SECONDS_A_ROW": "120",
             "walks": {"WALK": "1", "PIXELS": "64", "SECONDS_A_ROW": "460"}}
 TRUTH = re.compile(r"(not )?ok (.*): (\S+), truth (\S+), SE (\S+) of it, "
                    r"z (\S+), of its picture \S+, (\S+) s, (\S+?)"
-                   r"(, short)?$")
+                   r"(, short|, again)?$")
 
 
 def row_of(line):
     found = TRUTH.match(line)
     if not found:
         raise SystemExit(f"not a row: {line}")
-    bad, name, mean, truth, error, z, seconds, _, short = found.groups()
+    bad, name, mean, truth, error, z, seconds, _, end = found.groups()
     return {"row": name, "truth": float(truth), "mean": float(mean),
             "se": float(error), "z": float(z), "seconds": float(seconds),
-            "reached": not short, "passed": not bad}
+            "reached": end != ", short", "again": end == ", again", "passed": not bad}
 
 
 def sums_of(family, rows):
@@ -32,6 +32,7 @@ def sums_of(family, rows):
     return {"row": family, "rows": len(rows),
             "fine": sum(row["se"] <= 1e-4 for row in rows),
             "short": sum(not row["reached"] for row in rows),
+            "again": sum(row["again"] for row in rows),
             "largest_z": max(zs, key=abs, default=0),
             "rms_z": round((sum(z * z for z in zs) / max(len(zs), 1)) ** 0.5, 2),
             "seconds": round(sum(row["seconds"] for row in rows)),
