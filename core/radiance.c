@@ -33,6 +33,7 @@ struct layout {
     double shift[3]; /* of the lattice, in cells                */
     bool snap;       /* other frames shall have the same cells  */
     bool lit;        /* light straight from lights is kept      */
+    int later;       /* numbers for that once all is filtered   */
     radiance_lattice field;
 };
 
@@ -123,7 +124,14 @@ static bool has_surfaces(const struct flat *f)
     return false;
 }
 
-/* In a picture alone, where lights are few enough to look at all. */
+static bool is_films(const struct brume_options *options)
+{
+    return brume_film_reach(options) > 0 || options->photons.film_cells;
+}
+
+/* Where lights are few enough to look at all; in a film's cells, which may
+ * hold what goes anywhere instead of what goes to the eye, of one phase
+ * function. */
 bool radiance_keeps_lit(const struct flat *f,
                         const struct brume_options *options)
 {
@@ -131,10 +139,10 @@ bool radiance_keeps_lit(const struct flat *f,
     const flat_medium *known[MAX_PHASES];
     int count;
     return options->integrator == BRUME_INTEGRATOR_PHOTON &&
-           list_phases(f, known, &count) && o->gather != BRUME_GATHER_BALL &&
-           o->single != BRUME_SINGLE_FIELD && brume_film_reach(options) == 0 &&
-           !o->film_cells && f->lights_count >= 1 &&
-           f->lights_count <= LIT_LIGHTS;
+           list_phases(f, known, &count) &&
+           (count == 1 || !is_films(options)) &&
+           o->gather != BRUME_GATHER_BALL && o->single != BRUME_SINGLE_FIELD &&
+           f->lights_count >= 1 && f->lights_count <= LIT_LIGHTS;
 }
 
 /* The next place of so many numbers. */
@@ -370,7 +378,7 @@ static double first_side(const struct flat *f)
 
 static uint64_t field_bytes(const struct layout *l, uint64_t cells)
 {
-    return cells * (uint64_t)l->field.numbers * NUMBER_BYTES;
+    return cells * (uint64_t)(l->field.numbers + l->later) * NUMBER_BYTES;
 }
 
 static bool check_options(const struct layout *l, struct brume_error *err)
@@ -497,12 +505,13 @@ static struct layout begin(struct flat *flat,
     l.field.single = l.options->single == BRUME_SINGLE_FIELD &&
                      flat->lights_count > 0;
     l.field.births = l.options->emission == BRUME_EMISSION_PHOTONS;
-    l.snap = !l.passes &&
-             (brume_film_reach(options) > 0 || l.options->film_cells);
+    l.snap = !l.passes && is_films(options);
     l.field.refined = l.options->depth > 0.0 && !l.passes && !l.snap &&
                       !l.field.ball;
-    l.lit = radiance_keeps_lit(flat, options);
+    bool lit = radiance_keeps_lit(flat, options);
+    l.lit = lit && brume_film_reach(options) == 0;
     choose_numbers(&l);
+    l.later = lit && !l.lit ? 3 * l.field.phases : 0;
     return l;
 }
 
@@ -526,6 +535,47 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
         return false;
     find_far(&l, options);
     return lay_out(&l, side, room_for(&l, options->memory), err);
+}
+
+/* ---- room for what no filter has to do with ----------------------------- */
+
+struct widening {
+    const float *from;
+    float *to;
+    size_t before, after; /* numbers of a cell */
+};
+
+static void widen_brick(void *context, size_t brick, int thread)
+{
+    (void)thread;
+    const struct widening *w = context;
+    const float *from = w->from + brick * 512 * w->before;
+    float *to = w->to + brick * 512 * w->after;
+    for (int i = 0; i < 512; i++, from += w->before, to += w->after)
+        memcpy(to, from, w->before * sizeof *to);
+}
+
+bool radiance_widen(struct flat *flat, const struct brume_options *options,
+                    struct brume_error *err)
+{
+    radiance_lattice *f = &flat->view.field;
+    if (f->lit || f->numbers == 0 || !radiance_keeps_lit(flat, options))
+        return true;
+    struct widening w = {.from = flat->radiance,
+                         .before = (size_t)f->numbers,
+                         .after = (size_t)(f->numbers + 3 * f->phases)};
+    size_t cells = flat->radiance_count / w.before;
+    w.to = memory_new(cells * w.after, sizeof *w.to, err);
+    if (!w.to)
+        return false;
+    parallel_for(options->threads, cells / 512, widen_brick, &w, NULL);
+    free(flat->radiance);
+    flat->radiance = w.to;
+    flat->radiance_count = flat->radiance_capacity = cells * w.after;
+    f->lit = f->numbers;
+    f->numbers = (int32_t)w.after;
+    flat_view(flat);
+    return true;
 }
 
 /* Without a field, as before the first. */

@@ -14,6 +14,12 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
 bool radiance_renew(struct flat *flat, const struct brume_options *options,
                     uint32_t pass, struct brume_error *err);
 
+/* Makes room in the cells of a field that was filtered for light straight from
+ * lights, where they shall hold it (radiance_keeps_lit): it has no noise that
+ * a filter would take. */
+bool radiance_widen(struct flat *flat, const struct brume_options *options,
+                    struct brume_error *err);
+
 /* Blocks of 2^3 cells of a field whose bricks are all alike. */
 size_t radiance_blocks(const struct flat *flat);
 

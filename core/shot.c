@@ -1,5 +1,6 @@
 #include "core/shot.h"
 #include <stdlib.h>
+#include "core/radiance.h"
 #include "lib/timer.h"
 
 void shots_init(struct shots *shots)
@@ -202,7 +203,8 @@ bool shot_filter(struct shots *shots, struct shot *shot, uint32_t first,
     if (!shot->open || !shot->kept)
         return true;
     if (!list_fields(shots, shot, first, last, reach, fields, err) ||
-        !run_filter(shot, fields, reach, scratch, err))
+        !run_filter(shot, fields, reach, scratch, err) ||
+        !radiance_widen(shot->job.flat, &shot->options, err))
         return false;
     stats->ring = ring_bytes(shots);
     stats->drifts = shot->field.drift != NULL;
