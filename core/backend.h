@@ -17,12 +17,16 @@ struct backend_frame {
     bool (*tick)(void *user, double done);
     void *user;
     bool raw;                   /* the field is filtered before it is read */
+    bool traced;                /* it is there: no photon will fly         */
 };
 
 struct backend {
     const char *name;
     /* Whether it can run here; if not, says why. */
     bool (*available)(char *why, size_t size);
+    /* Finds out, in any thread, what helps to open it for a frame of a film,
+     * and leaves it in flat->looked; NULL: nothing. */
+    void (*look)(struct flat *flat, const struct brume_options *options);
     /* Brings the scene to where it will be read; NULL with err set. */
     void *(*open)(const struct backend_frame *frame, struct brume_error *err);
     /* Traces all photons of the job and adds their flights to the sums of the
@@ -45,6 +49,13 @@ struct backend {
      * to be used any more. */
     bool (*sample)(void *state, uint32_t *count, struct brume_stats *stats,
                    struct brume_error *err);
+    /* Sums over the film's rows, as film_rows; its picture, into planes that
+     * are there; its pixels, to where film_room is made for them. */
+    bool (*survey)(void *state, const film_survey *what,
+                   struct brume_error *err);
+    bool (*develop)(void *state, bool omit_background,
+                    struct brume_frame *frame, struct brume_error *err);
+    bool (*fetch)(void *state, struct brume_error *err);
     void (*close)(void *state);
     /* The field has been laid out anew: its sums are zero. NULL where it can't
      * be while the backend is open. */
@@ -88,6 +99,10 @@ static inline bool backend_sharpens(const struct backend_frame *frame)
  * pictures are the same. NULL with err set: it can't run here. */
 const struct backend *backend_choose(const struct brume_options *o,
                                      struct brume_error *err);
+
+/* Lets the backend that will be opened look at what it will be given, where
+ * there is a film. */
+void backend_look(struct flat *flat, const struct brume_options *options);
 
 /* From now on the calling thread works on this one of the backend's devices, if
  * there are so many; at first it does on the first. The device is started,

@@ -31,6 +31,15 @@ const struct backend *backend_choose(const struct brume_options *o,
     return NULL;
 }
 
+void backend_look(struct flat *flat, const struct brume_options *options)
+{
+    struct brume_error none = {0};
+    const struct backend *b = options->still ? backend_choose(options, &none)
+                                             : NULL;
+    if (b && b->look)
+        b->look(flat, options);
+}
+
 void backend_use_device(const struct brume_options *options, int device)
 {
     struct brume_error none = {0};

@@ -72,11 +72,16 @@ bool film_init(struct film *film, const struct brume_options *options,
     film->y1 = whole ? options->height : options->y1;
     film->threads = options->threads;
     film->still = options->still;
-    if (!take_kept(film))
-        film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
     film->row = memory_new((size_t)(film->y1 - film->y0), sizeof *film->row,
                            err);
-    return film->pixel && film->row;
+    return film->row != NULL;
+}
+
+bool film_room(struct film *film, struct brume_error *err)
+{
+    if (!film->pixel && !take_kept(film))
+        film->pixel = memory_new(film_pixels(film), sizeof *film->pixel, err);
+    return film->pixel != NULL;
 }
 
 void film_release(struct film *film)
@@ -97,142 +102,75 @@ uint32_t film_lines(const struct film *film, uint32_t samples)
     return pixel_lines(samples, film->lines);
 }
 
-static double line_count(const struct film *f)
+film_counts film_counts_of(const struct film *f)
 {
-    return film_lines(f, f->samples);
+    film_counts n = {.width = f->x1 - f->x0, .height = f->y1 - f->y0};
+    uint32_t lines = film_lines(f, f->samples);
+    n.samples = f->samples;
+    n.lines = lines;
+    for (uint32_t half = 0; half < 2; half++) {
+        n.path[half] = pixel_shared(f->samples, f->share, half);
+        n.line[half] = pixel_shared(lines, f->share, half);
+    }
+    return n;
 }
 
-/* Mean over the samples of one half. */
-static double half_mean(const struct film *f, const film_pixel *p,
-                        uint32_t half, int channel)
-{
-    uint32_t paths = pixel_shared(f->samples, f->share, half);
-    uint32_t lines = pixel_shared(film_lines(f, f->samples), f->share, half);
-    return (paths ? p->path[half][channel] / paths : 0.0) +
-           (lines ? p->line[half][channel] / lines : 0.0);
-}
+struct survey {
+    struct film *film;
+    const film_survey *what;
+};
 
-static double mean(const struct film *f, const film_pixel *p, int channel)
+static void survey_row(void *context, size_t y, int thread)
 {
-    double lines = line_count(f);
-    return (p->path[0][channel] + p->path[1][channel]) / f->samples +
-           (p->line[0][channel] + p->line[1][channel]) / lines;
-}
-
-/* Mean over the pixels beside one, which know nothing of its noise. */
-static double mean_around(const struct film *f, size_t at, int channel)
-{
-    int width = f->x1 - f->x0, height = f->y1 - f->y0, count = 0;
-    int x = (int)(at % (size_t)width), y = (int)(at / (size_t)width);
+    (void)thread;
+    const struct survey *s = context;
     double sum = 0.0;
-    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
-        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++) {
-            if (i == x && j == y)
-                continue;
-            sum += mean(f, &f->pixel[(size_t)j * (size_t)width + (size_t)i],
-                        channel);
-            count++;
-        }
-    return count ? sum / count : mean(f, &f->pixel[at], channel);
+    for (int32_t x = 0; x < s->what->n.width; x++)
+        for (int c = 0; c < 3; c++)
+            sum += develop_term(s->what, s->film->pixel, x, (int32_t)y, c);
+    s->film->row[y] = sum;
+}
+
+bool film_rows_here(void *film, const film_survey *what,
+                    struct brume_error *err)
+{
+    (void)err;
+    struct survey s = {film, what};
+    parallel_for(s.film->threads, (size_t)what->n.height, survey_row, &s, NULL);
+    return true;
 }
 
 /* What all rows have together, in their order whoever found them. */
-struct survey {
-    const struct film *film;
-    double image; /* mean of all pixels                      */
-};
-
-static double sum_rows(struct survey *s, parallel_body *body)
+static double sum_of_rows(const struct film *f)
 {
-    const struct film *f = s->film;
     double sum = 0.0;
-    parallel_for(f->threads, (size_t)(f->y1 - f->y0), body, s, NULL);
     for (int y = 0; y < f->y1 - f->y0; y++)
         sum += f->row[y];
     return sum;
 }
 
-static void light_of_row(void *context, size_t y, int thread)
+bool film_error(const struct film *film, film_rows *rows, void *user,
+                double *error, struct brume_error *err)
 {
-    (void)thread;
-    const struct film *f = ((const struct survey *)context)->film;
-    size_t width = (size_t)(f->x1 - f->x0);
-    double sum = 0.0;
-    for (size_t i = y * width; i < (y + 1) * width; i++)
-        for (int c = 0; c < 3; c++)
-            sum += mean(f, &f->pixel[i], c);
-    f->row[y] = sum;
-}
-
-/* Over its own mean a pixel in which few samples found much light would be off
- * by little; so would one beside a bright edge, over its neighbours'. The less
- * of the two counts. */
-static void error_of_row(void *context, size_t y, int thread)
-{
-    (void)thread;
-    const struct survey *s = context;
-    const struct film *f = s->film;
-    size_t width = (size_t)(f->x1 - f->x0);
-    double floor = 0.01 * s->image * s->image, sum = 0.0;
-    for (size_t i = y * width; i < (y + 1) * width; i++)
-        for (int c = 0; c < 3; c++) {
-            const film_pixel *p = &f->pixel[i];
-            double d = half_mean(f, p, 0, c) - half_mean(f, p, 1, c);
-            if (d == 0.0)
-                continue;
-            double m = fmin(fabs(mean(f, p, c)), fabs(mean_around(f, i, c)));
-            sum += 0.25 * d * d / (m * m + floor);
-        }
-    f->row[y] = sum;
-}
-
-double film_error(const struct film *film)
-{
-    struct survey s = {.film = film};
+    film_survey what = {.n = film_counts_of(film)};
     double values = 3.0 * (double)film_pixels(film);
-    if (film->samples < 4 || film->samples < 2 * film->share)
-        return INFINITY;
-    if (!(values > 0.0))
-        return 0.0;
-    s.image = sum_rows(&s, light_of_row) / values;
-    return sqrt(sum_rows(&s, error_of_row) / values);
+    bool few = film->samples < 4 || film->samples < 2 * film->share;
+    *error = few ? INFINITY : 0.0;
+    if (few || !(values > 0.0))
+        return true;
+    if (!rows(user, &what, err))
+        return false;
+    double image = sum_of_rows(film) / values;
+    what.errors = 1;
+    what.floor = 0.01 * image * image;
+    if (!rows(user, &what, err))
+        return false;
+    *error = sqrt(sum_of_rows(film) / values);
+    return true;
 }
 
-static void resolve_pixel(const struct film *f, const film_pixel *p,
-                          bool omit_background, size_t at,
-                          struct brume_frame *frame)
-{
-    double lines = line_count(f);
-    for (int c = 0; c < 3; c++) {
-        double m = mean(f, p, c);
-        if (omit_background)
-            m -= p->background[c] / lines;
-        frame->radiance[3 * at + (size_t)c] = (float)m;
-        frame->opacity[3 * at + (size_t)c] = (float)(p->opacity[c] / lines);
-    }
-    frame->depth[at] = p->depth;
-}
-
-struct resolve {
-    const struct film *film;
-    bool omit_background;
-    struct brume_frame *frame;
-};
-
-static void resolve_row(void *context, size_t y, int thread)
-{
-    (void)thread;
-    const struct resolve *r = context;
-    const struct film *f = r->film;
-    size_t width = (size_t)(f->x1 - f->x0);
-    size_t to = ((size_t)f->y0 + y) * (size_t)f->width + (size_t)f->x0;
-    for (size_t x = 0; x < width; x++)
-        resolve_pixel(f, &f->pixel[y * width + x], r->omit_background, to + x,
-                      r->frame);
-}
-
-bool film_resolve(const struct film *film, bool omit_background,
-                  struct brume_frame *frame, struct brume_error *err)
+bool film_planes(const struct film *film, struct brume_frame *frame,
+                 struct brume_error *err)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
     frame->width = film->width;
@@ -240,14 +178,50 @@ bool film_resolve(const struct film *film, bool omit_background,
     frame->radiance = memory_new(pixels, 3 * sizeof(float), err);
     frame->opacity = memory_new(pixels, 3 * sizeof(float), err);
     frame->depth = memory_new(pixels, sizeof(float), err);
-    if (!frame->radiance || !frame->opacity || !frame->depth) {
-        brume_frame_free(frame);
-        return false;
+    if (frame->radiance && frame->opacity && frame->depth)
+        return true;
+    brume_frame_free(frame);
+    return false;
+}
+
+void film_put(const struct film *film, size_t from, size_t count,
+              const film_look *look, struct brume_frame *frame)
+{
+    size_t width = (size_t)(film->x1 - film->x0);
+    for (size_t i = from; i < from + count; i++, look++) {
+        size_t x = (size_t)film->x0 + i % width;
+        size_t y = (size_t)film->y0 + i / width;
+        size_t at = y * (size_t)film->width + x;
+        memcpy(frame->radiance + 3 * at, look->radiance, sizeof look->radiance);
+        memcpy(frame->opacity + 3 * at, look->opacity, sizeof look->opacity);
+        frame->depth[at] = look->depth;
     }
-    struct resolve r = {film, omit_background, frame};
-    parallel_for(film->threads, (size_t)(film->y1 - film->y0), resolve_row, &r,
-                 NULL);
-    return true;
+}
+
+struct developing {
+    const struct film *film;
+    film_counts n;
+    bool omit_background;
+    struct brume_frame *frame;
+};
+
+static void develop_row(void *context, size_t y, int thread)
+{
+    (void)thread;
+    const struct developing *d = context;
+    size_t width = (size_t)d->n.width;
+    for (size_t i = y * width; i < (y + 1) * width; i++) {
+        film_look look = develop_look(&d->n, &d->film->pixel[i],
+                                      d->omit_background);
+        film_put(d->film, i, 1, &look, d->frame);
+    }
+}
+
+void film_develop_here(const struct film *film, bool omit_background,
+                       struct brume_frame *frame)
+{
+    struct developing d = {film, film_counts_of(film), omit_background, frame};
+    parallel_for(film->threads, (size_t)d.n.height, develop_row, &d, NULL);
 }
 
 void brume_frame_free(struct brume_frame *frame)

@@ -54,5 +54,7 @@ void flat_free(struct flat *flat)
     free(flat->drift);
     free(flat->half);
     order_free(flat->order);
+    if (flat->looked)
+        flat->forget(flat->looked);
     free(flat);
 }

@@ -22,6 +22,9 @@ struct flat {
     double half_part;
     /* A tree that is left to the backend (order.h); or NULL. */
     struct tree_order *order;
+    /* What a backend found out before it was opened (backend.h); or NULL. */
+    void *looked;
+    void (*forget)(void *looked);
     /* How unit space lies: p_unit = (p - centre) unit. */
     double unit, centre[3];
     matrix to_unit, from_unit;

@@ -165,10 +165,17 @@ static uint32_t next_pass(const struct frame_job *j, int met)
     return time_allows(j, want);
 }
 
+/* Bytes that a field is made of: sums, or a copy where it is there. */
+static uint64_t gather_bytes(const struct frame_job *j, const struct flat *flat)
+{
+    return j->traced ? flat->radiance_count * sizeof *flat->radiance
+                     : radiance_sum_bytes(flat);
+}
+
 static bool check_memory(const struct frame_job *j, const struct flat *flat,
                          struct brume_error *err)
 {
-    uint64_t bytes = flat_bytes(flat) + radiance_sum_bytes(flat) +
+    uint64_t bytes = flat_bytes(flat) + gather_bytes(j, flat) +
                      film_pixels(&j->film) * sizeof(film_pixel) + j->held;
     j->out->stats.bytes = bytes;
     if (j->options->memory == 0 || bytes <= j->options->memory)
@@ -217,14 +224,21 @@ static struct brume_part part_of(struct frame_job *j)
     return part;
 }
 
+static bool fetch_film(struct frame_job *j)
+{
+    struct brume_error none = {0};
+    return film_room(&j->film, &none) && j->backend->fetch(j->state, &none);
+}
+
 static void save_part(struct frame_job *j)
 {
     const struct brume_keeper *keeper = j->options->keeper;
+    bool there = keeper && !j->torn && j->film.samples > 0 && fetch_film(j);
     struct brume_part part = part_of(j);
     if (j->stopped)
         part.seconds = fmax(j->stopped_at + STOP_SECONDS - timer_seconds(),
                             1e-3);
-    if (keeper && !j->torn && part.samples > 0)
+    if (there)
         keeper->save(keeper->user, j->options->frame, &part);
     j->saved = timer_seconds();
 }
@@ -236,8 +250,12 @@ static void load_part(struct frame_job *j)
     struct brume_part part = part_of(j);
     if (!keeper || !j->rendering || part.bytes == 0)
         return;
-    if (!keeper->load(keeper->user, j->options->frame, &part))
+    part.pixel = memory_new(film_pixels(&j->film), sizeof(film_pixel), NULL);
+    if (!part.pixel || !keeper->load(keeper->user, j->options->frame, &part)) {
+        free(part.pixel);
         return;
+    }
+    j->film.pixel = part.pixel;
     j->film.samples = part.samples;
     j->left = part.left;
     j->met = part.met;
@@ -251,8 +269,8 @@ static void load_part(struct frame_job *j)
 /* ---- samples ------------------------------------------------------------ */
 
 /* So many that a stop is heard soon, and a picture that takes long is kept
- * now and then. A GPU stops where it likes, but brings its film each time, so
- * that many a picture is one piece. */
+ * now and then. A GPU stops where it likes, so that many a picture is one
+ * piece. */
 static uint32_t next_piece(const struct frame_job *j)
 {
     bool cpu = j->backend == &backend_cpu;
@@ -306,10 +324,13 @@ static bool sample_fields(struct frame_job *j, struct brume_error *err)
     return good;
 }
 
-static void check_error(struct frame_job *j)
+static bool check_error(struct frame_job *j, struct brume_error *err)
 {
-    j->out->stats.error = film_error(&j->film);
+    if (!film_error(&j->film, j->backend->survey, j->state,
+                    &j->out->stats.error, err))
+        return false;
     j->met = j->out->stats.error <= j->error ? j->met + 1 : 0;
+    return true;
 }
 
 static bool sample_pass(struct frame_job *j, struct brume_error *err)
@@ -317,9 +338,7 @@ static bool sample_pass(struct frame_job *j, struct brume_error *err)
     bool good = j->stages.passes ? sample_fields(j, err) : sample_some(j, err);
     if (!good && j->stopped)
         save_part(j);
-    if (good)
-        check_error(j);
-    return good;
+    return good && check_error(j, err);
 }
 
 static bool sample_passes(struct frame_job *j, struct brume_error *err)
@@ -331,8 +350,8 @@ static bool sample_passes(struct frame_job *j, struct brume_error *err)
     KEPT_COUNTERS(X)
 #undef X
     /* One that was kept at the end of a pass. */
-    if (j->film.samples > 0 && j->left == 0)
-        check_error(j);
+    if (j->film.samples > 0 && j->left == 0 && !check_error(j, err))
+        return false;
     while (j->left > 0 || (j->left = next_pass(j, (int)j->met)) > 0)
         if (!sample_pass(j, err))
             return false;
@@ -492,8 +511,9 @@ static bool open_state(struct frame_job *j, struct brume_error *err)
     j->film.lines = j->stages.lines;
     set_share(j);
     load_part(j);
-    struct backend_frame frame = {j->flat, j->options, &j->stages,   &j->film,
-                                  tick,    j,          !j->rendering};
+    struct backend_frame frame = {j->flat,       j->options, &j->stages,
+                                  &j->film,      tick,       j,
+                                  !j->rendering, j->traced};
     j->state = open_backend(j, &frame, err);
     if (!j->state)
         return false;
@@ -551,9 +571,12 @@ bool frame_render(struct frame_job *j, bool traced, struct brume_error *err)
 {
     j->start = timer_seconds() - j->spent;
     j->rendering = true;
-    bool good = open_state(j, err) && run_stages(j, traced, err) &&
-                film_resolve(&j->film, j->options->omit_background, j->out,
-                             err);
+    j->traced = traced;
+    bool good = (traced || radiance_widen(j->flat, j->options, err)) &&
+                open_state(j, err) && run_stages(j, traced, err) &&
+                film_planes(&j->film, j->out, err) &&
+                j->backend->develop(j->state, j->options->omit_background,
+                                    j->out, err);
     if (good)
         report_goal(j);
     close_state(j);
@@ -630,6 +653,8 @@ bool frame_open(struct frame_job *j, brume_scene *scene,
     if (still)
         count_trees(&before, still, &out->stats);
     bool good = j->flat && lay_out(j, scene, err);
+    if (good)
+        backend_look(j->flat, options);
     j->spent = timer_seconds() - j->start;
     out->stats.seconds_prepare = j->spent;
     return good;

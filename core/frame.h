@@ -27,6 +27,7 @@ struct frame_job {
     struct brume_stats begun;   /* before the first sample             */
     struct brume_part loaded;   /* that the picture goes on from       */
     bool rendering;         /* the picture, not its field alone        */
+    bool traced;            /* the field is there                      */
     bool torn;              /* pixels have different samples           */
     uint64_t photons;       /* of the trace that runs; 0: paths do     */
     uint64_t photons_done;  /* of these, by the traces before          */

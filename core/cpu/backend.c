@@ -47,10 +47,14 @@ static void *cpu_open(const struct backend_frame *frame,
     s->job = backend_pixels(frame);
     s->stage = choose_stage(frame->stages->needs & ~MAY_TINTS);
     s->count = memory_new((size_t)s->threads, sizeof *s->count, err);
+    bool good = s->count && (frame->raw || film_room(frame->film, err));
     const struct flat *flat = frame->flat;
-    if (s->count && frame->stages->photons)
-        s->sum = memory_new(flat->radiance_count, sizeof *s->sum, err);
-    if (s->count && (s->sum || !frame->stages->photons))
+    if (good && frame->stages->photons)
+        s->sum = memory_new(flat->radiance_count,
+                            frame->traced ? sizeof *flat->radiance
+                                          : sizeof *s->sum,
+                            err);
+    if (good && (s->sum || !frame->stages->photons))
         return s;
     cpu_close(s);
     return NULL;
@@ -110,6 +114,30 @@ static bool cpu_sample(void *state, uint32_t *count, struct brume_stats *stats,
     return true;
 }
 
+static bool cpu_survey(void *state, const film_survey *what,
+                       struct brume_error *err)
+{
+    const struct cpu_state *s = state;
+    return film_rows_here(s->frame.film, what, err);
+}
+
+static bool cpu_develop(void *state, bool omit_background,
+                        struct brume_frame *frame, struct brume_error *err)
+{
+    (void)err;
+    const struct cpu_state *s = state;
+    film_develop_here(s->frame.film, omit_background, frame);
+    return true;
+}
+
+/* They are there. */
+static bool cpu_fetch(void *state, struct brume_error *err)
+{
+    (void)state;
+    (void)err;
+    return true;
+}
+
 const struct backend backend_cpu = {
     .name = "cpu",
     .available = cpu_available,
@@ -118,6 +146,9 @@ const struct backend backend_cpu = {
     .gather = cpu_gather,
     .halve = cpu_halve,
     .sample = cpu_sample,
+    .survey = cpu_survey,
+    .develop = cpu_develop,
+    .fetch = cpu_fetch,
     .close = cpu_close,
     .renew = cpu_renew,
 };

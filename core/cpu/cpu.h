@@ -12,7 +12,8 @@ struct cpu_state {
     const struct cpu_stage *stage;
     int threads;
     track_counters *count;      /* of each thread                          */
-    int64_t *sum;               /* of the field's cells, or NULL           */
+    int64_t *sum;               /* of the field's cells, or NULL; room for as
+                                   many floats, where the field is there   */
     uint32_t samples;           /* of this call                            */
     atomic_size_t rows_done;
     atomic_bool stop;

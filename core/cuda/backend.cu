@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <new>
 #include "core/cuda/backend.cuh"
+#include "core/cuda/develop.cuh"
 #include "core/cuda/lone.cuh"
 #include "core/cuda/resident.cuh"
 
@@ -48,6 +49,12 @@ void cuda_use(int device)
 {
     if (cudaSetDevice(device) != cudaSuccess)
         cudaGetLastError(); /* told where the device is opened */
+}
+
+void cuda_look(flat *f, const brume_options *options)
+{
+    f->looked = resident_look(&f->view, f->radiance, options->threads);
+    f->forget = resident_forget;
 }
 
 void cuda_close(void *state)
@@ -124,7 +131,7 @@ size_t frame_bytes(const cuda_state *s)
     size_t bytes = device_round(sizeof(device_counters)) +
                    device_round(film_pixels(s->frame.film) *
                                 sizeof(film_pixel)) +
-                   photons_bytes(s) + paths_bytes(s);
+                   develop_bytes(s) + photons_bytes(s) + paths_bytes(s);
 #define X(type, name)                                                          \
     if (!stays(s, view->name, view->name##_count * sizeof(type)))              \
         bytes += device_round(view->name##_count * sizeof(type));
@@ -179,10 +186,11 @@ void describe_sole(const flat_scene *from, sole_medium *to)
 }
 
 /* Frames that an array may be waited for: where fields are filtered each is
- * opened twice, with those within reach between. */
+ * opened twice, with those within reach between, and two that are ahead. */
 int frames_between(const cuda_state *s)
 {
-    return 1 + 2 * brume_film_reach(s->frame.options);
+    int reach = brume_film_reach(s->frame.options);
+    return reach > 0 ? 1 + 2 * (reach + 2) : 1;
 }
 
 /* Copies every array of the scene and points the device's view at them. */
@@ -192,7 +200,8 @@ bool upload(cuda_state *s, brume_error *err)
     bool good = true;
     s->job.scene = *from;
     describe_sole(from, &s->job.scene.sole);
-    resident_begin(s->kept, &s->to, s->frame.options->threads);
+    resident_begin(s->kept, &s->to, s->frame.options->threads,
+                   static_cast<resident_looked *>(s->frame.flat->looked));
     device_clock_mark(&s->clock, 0);
 #define X(type, name)                                                          \
     if (good) {                                                                \
@@ -231,6 +240,7 @@ bool start_film(cuda_state *s, brume_error *err)
     s->job.count = static_cast<device_counters *>(
         device_take(&s->arena, sizeof(device_counters)));
     start_paths(s);
+    develop_open(s);
     if (s->frame.film->samples > 0)
         return device_check(cudaMemcpy(s->job.pixel, s->frame.film->pixel,
                                        bytes, cudaMemcpyHostToDevice),
@@ -322,6 +332,11 @@ bool sample_warm(cuda_state *s, brume_error *err)
     return device_wait("opening", err);
 }
 
+bool warm(cuda_state *s, brume_error *err)
+{
+    return sample_warm(s, err) && photons_warm(s, err) && develop_warm(s, err);
+}
+
 void *try_open(const backend_frame *frame, size_t paths, brume_error *err)
 {
     cuda_state *s = new (std::nothrow) cuda_state();
@@ -344,7 +359,7 @@ void *try_open(const backend_frame *frame, size_t paths, brume_error *err)
                    err) &&
         device_arena_new(&s->arena, frame_bytes(s), err) && upload(s, err) &&
         tree_scene_build(s, err) && start_film(s, err) &&
-        photons_open(s, err) && sample_warm(s, err) && photons_warm(s, err))
+        photons_open(s, err) && warm(s, err))
         return s;
     cuda_close(s);
     return nullptr;
@@ -358,6 +373,7 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     if (state || err->code != BRUME_ERR_MEMORY)
         return state;
     resident_empty(resident_of(frame->options->still));
+    device_trim(); /* stacks of kernels are not taken from the pool */
     *err = {};
     return try_open(frame, few_paths, err);
 }
@@ -442,11 +458,7 @@ bool cuda_sample(void *state, uint32_t *samples, brume_stats *stats,
     }
     if (!s->job.pixels.path)
         stats->paths += film_pixels(f) * *samples;
-    return device_check(cudaMemcpy(f->pixel, s->job.pixel,
-                                   film_pixels(f) * sizeof(film_pixel),
-                                   cudaMemcpyDeviceToHost),
-                        "reading the film", err) &&
-           read_counts(s, stats, err);
+    return read_counts(s, stats, err);
 }
 
 }
@@ -459,7 +471,8 @@ void cuda_add_track(const device_counters *c, brume_stats *out)
 }
 
 extern "C" const struct backend backend_cuda = {
-    "cuda",     cuda_available, cuda_open, cuda_trace,  cuda_gather,
-    cuda_halve, cuda_take,      cuda_put,  cuda_sample, cuda_close,
-    cuda_renew, cuda_devices,   cuda_use,  true,
+    "cuda",       cuda_available, cuda_look,  cuda_open,  cuda_trace,
+    cuda_gather,  cuda_halve,     cuda_take,  cuda_put,   cuda_sample,
+    cuda_survey,  cuda_develop,   cuda_fetch, cuda_close, cuda_renew,
+    cuda_devices, cuda_use,       true,
 };

@@ -38,6 +38,8 @@ struct cuda_state {
     device_clock clock;
     brume_device_seconds spent; /* since the last sample                   */
     device_arena tree;          /* built here, if it does not stay         */
+    film_look *film_look;       /* the picture                             */
+    double *film_row;           /* sums over its rows                      */
 };
 
 /* photons.cu */

@@ -71,17 +71,64 @@ static bool device_pool(cudaMemPool_t *pool)
            cudaDeviceGetDefaultMemPool(pool, device) == cudaSuccess;
 }
 
-void device_keep_memory()
+/* Of a device whose number is too high for this: the one that frames have. */
+static bool device_pool_kept(cudaMemPool_t *pool)
+{
+    enum { DEVICES = 64 };
+    static cudaMemPool_t pools[DEVICES];
+    int device = 0;
+    if (cudaGetDevice(&device) != cudaSuccess)
+        return false;
+    if (device >= DEVICES)
+        return device_pool(pool);
+    if (!pools[device]) {
+        cudaMemPoolProps props = {};
+        props.allocType = cudaMemAllocationTypePinned;
+        props.location.type = cudaMemLocationTypeDevice;
+        props.location.id = device;
+        if (cudaMemPoolCreate(&pools[device], &props) != cudaSuccess)
+            return false;
+    }
+    *pool = pools[device];
+    return true;
+}
+
+/* For each of the two. */
+template <typename body> static void device_pools(const body &what)
 {
     cudaMemPool_t pool;
-    uint64_t all = UINT64_MAX;
     if (device_pool(&pool))
+        what(pool);
+    if (device_pool_kept(&pool))
+        what(pool);
+    cudaGetLastError();
+}
+
+void device_keep_memory()
+{
+    device_pools([](cudaMemPool_t pool) {
+        uint64_t all = UINT64_MAX;
         cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all);
+    });
+}
+
+void device_trim()
+{
+    cudaDeviceSynchronize();
+    device_pools([](cudaMemPool_t pool) { cudaMemPoolTrimTo(pool, 0); });
 }
 
 cudaError_t device_new(void **memory, size_t bytes)
 {
     return cudaMallocAsync(memory, bytes, nullptr);
+}
+
+cudaError_t device_new_kept(void **memory, size_t bytes)
+{
+    cudaMemPool_t pool;
+    return device_pool_kept(&pool)
+               ? cudaMallocFromPoolAsync(memory, bytes, pool, nullptr)
+               : cudaMallocAsync(memory, bytes, nullptr);
 }
 
 void device_free(void *memory)
@@ -92,12 +139,14 @@ void device_free(void *memory)
 
 uint64_t device_reserved()
 {
-    cudaMemPool_t pool;
-    uint64_t bytes = 0;
-    if (device_pool(&pool))
+    uint64_t sum = 0;
+    device_pools([&sum](cudaMemPool_t pool) {
+        uint64_t bytes = 0;
         cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent,
                                 &bytes);
-    return bytes;
+        sum += bytes;
+    });
+    return sum;
 }
 
 size_t device_round(size_t bytes)

@@ -351,9 +351,8 @@ bool cuda_put(void *state, const float *cells, brume_error *err)
 {
     cuda_state *s = static_cast<cuda_state *>(state);
     size_t bytes = s->frame.flat->view.radiance_count * sizeof *cells;
-    return device_check(
-        cudaMemcpy(s->cells, cells, bytes, cudaMemcpyHostToDevice),
-        "writing the field", err);
+    return upload_put(&s->to, s->arena.base, s->cells, cells, bytes, err) &&
+           upload_flush(&s->to, err);
 }
 
 /* Room for fields that grow from pass to pass: a quarter more than is needed,

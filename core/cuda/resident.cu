@@ -1,6 +1,7 @@
 #include "core/cuda/resident.cuh"
 #include <new>
 #include <cstdlib>
+#include <cstring>
 extern "C" {
 #include "lib/chunk.h"
 #include "lib/hash.h"
@@ -26,10 +27,36 @@ struct resident {
 
 }
 
+namespace
+{
+
+/* An array's pieces, and what they are all together. */
+struct contents {
+    chunk *piece;
+    size_t pieces;
+    uint64_t hash;
+};
+
+enum {
+    ARRAYS = 0
+#define X(type, name) +1
+    SCENE_ARRAYS(X)
+#undef X
+};
+
+}
+
+struct resident_looked {
+    const void *host[ARRAYS];
+    contents what[ARRAYS];
+    int count;
+};
+
 struct resident_set {
     resident *first;
     uploader *to;
     int threads;
+    const resident_looked *looked;
     std::atomic<char *> spare{nullptr}; /* what uploads go through         */
     uint64_t uploaded, built, had;
 };
@@ -72,13 +99,13 @@ void release(void *set)
 bool allocate(resident_set *set, resident *r, brume_error *err)
 {
     void *memory = nullptr;
-    cudaError_t code = device_new(&memory, r->bytes);
+    cudaError_t code = device_new_kept(&memory, r->bytes);
     if (code != cudaSuccess) {
         cudaGetLastError();
         if (!upload_flush(set->to, err))
             return false;
         drop(set, 0);
-        code = device_new(&memory, r->bytes);
+        code = device_new_kept(&memory, r->bytes);
     }
     r->device = static_cast<char *>(memory);
     return device_check(code, "allocating the frame", err);
@@ -188,21 +215,32 @@ resident *link(resident_set *set, resident *r)
     return set->first = r;
 }
 
-/* An array's pieces, and what they are all together. */
-struct contents {
-    chunk *piece;
-    size_t pieces;
-    uint64_t hash;
-};
-
-bool look(const resident_set *set, const void *host, size_t bytes,
-          contents *out, brume_error *err)
+bool look(const void *host, size_t bytes, int threads, contents *out,
+          brume_error *err)
 {
-    out->piece = chunk_list(host, bytes, set->threads, &out->pieces, err);
+    out->piece = chunk_list(host, bytes, threads, &out->pieces, err);
     out->hash = HASH_START;
     for (size_t i = 0; out->piece && i < out->pieces; i++)
         out->hash = hash_bytes(out->hash, &out->piece[i].hash,
                                sizeof out->piece[i].hash);
+    return out->piece != nullptr;
+}
+
+/* A copy of what is known of it, or what a look tells. */
+bool know(const resident_set *set, const void *host, size_t bytes,
+          contents *out, brume_error *err)
+{
+    const resident_looked *l = set->looked;
+    int i = 0;
+    while (l && i < l->count && l->host[i] != host)
+        i++;
+    if (!l || i == l->count)
+        return look(host, bytes, set->threads, out, err);
+    *out = l->what[i];
+    out->piece = static_cast<chunk *>(
+        memory_new(out->pieces, sizeof *out->piece, err));
+    if (out->piece)
+        memcpy(out->piece, l->what[i].piece, out->pieces * sizeof *out->piece);
     return out->piece != nullptr;
 }
 
@@ -251,11 +289,46 @@ bool resident_is_worth(const resident_set *set, size_t bytes)
     return set && bytes >= worth;
 }
 
-void resident_begin(resident_set *set, uploader *to, int threads)
+namespace
+{
+
+void add_look(resident_looked *l, const void *host, size_t bytes, int threads)
+{
+    brume_error none = {};
+    l->host[l->count] = host;
+    l->count += look(host, bytes, threads, &l->what[l->count], &none);
+}
+
+}
+
+resident_looked *resident_look(const flat_scene *scene, const void *but,
+                               int threads)
+{
+    resident_looked *l = new (std::nothrow) resident_looked();
+#define X(type, name)                                                          \
+    if (l && scene->name != but &&                                             \
+        scene->name##_count * sizeof(type) >= worth)                           \
+        add_look(l, scene->name, scene->name##_count * sizeof(type), threads);
+    SCENE_ARRAYS(X)
+#undef X
+    return l;
+}
+
+void resident_forget(void *looked)
+{
+    resident_looked *l = static_cast<resident_looked *>(looked);
+    for (int i = 0; i < l->count; i++)
+        free(l->what[i].piece);
+    delete l;
+}
+
+void resident_begin(resident_set *set, uploader *to, int threads,
+                    const resident_looked *looked)
 {
     if (set) {
         set->to = to;
         set->threads = threads;
+        set->looked = looked;
     }
     for (resident *r = set ? set->first : nullptr; r; r = r->next)
         r->age++;
@@ -265,7 +338,7 @@ const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err)
 {
     contents c;
-    if (!look(set, host, bytes, &c, err))
+    if (!know(set, host, bytes, &c, err))
         return nullptr;
     resident *r = find(set, bytes, c.hash);
     if (r)
@@ -280,8 +353,10 @@ const void *resident_take(resident_set *set, const void *host, size_t bytes,
 
 void resident_end(resident_set *set, int before)
 {
-    if (set)
-        drop(set, before);
+    if (!set)
+        return;
+    drop(set, before);
+    set->looked = nullptr;
 }
 
 void resident_empty(resident_set *set)

@@ -20,10 +20,18 @@ std::atomic<char *> *resident_spare(resident_set *set);
 /* Whether an array of so many bytes is worth it. */
 bool resident_is_worth(const resident_set *set, size_t bytes);
 
-/* A frame takes its arrays, which so many threads look through; at the end
- * those go that neither it nor the last `before` ones took. What was taken
- * stays until the next frame begins. */
-void resident_begin(resident_set *set, uploader *to, int threads);
+/* What a scene's large arrays hold, but for `but`, found by so many threads
+ * before the device is at hand; NULL: nothing is known. */
+struct resident_looked;
+resident_looked *resident_look(const flat_scene *scene, const void *but,
+                               int threads);
+void resident_forget(void *looked);
+
+/* A frame takes its arrays, of which some may be known; at the end those go
+ * that neither it nor the last `before` ones took. What was taken stays until
+ * the next frame begins. */
+void resident_begin(resident_set *set, uploader *to, int threads,
+                    const resident_looked *looked);
 /* NULL with err set. */
 const void *resident_take(resident_set *set, const void *host, size_t bytes,
                           brume_error *err);

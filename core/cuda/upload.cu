@@ -365,3 +365,49 @@ bool upload_flush(uploader *u, brume_error *err)
     u->put.count = u->moved.count = 0;
     return good;
 }
+
+/* ---- bringing ----------------------------------------------------------- */
+
+namespace
+{
+
+struct bringing {
+    uploader *to;
+    const char *from;
+    size_t bytes, part; /* of each but the last                    */
+};
+
+size_t bytes_of(const bringing *b, size_t i)
+{
+    return std::min(b->part, b->bytes - i * b->part);
+}
+
+cudaError_t bring_part(const bringing *b, size_t i)
+{
+    cudaError_t code = cudaMemcpyAsync(memory_of(b->to, i),
+                                       b->from + i * b->part, bytes_of(b, i),
+                                       cudaMemcpyDeviceToHost);
+    return code != cudaSuccess ? code : cudaEventRecord(event_of(b->to, i));
+}
+
+}
+
+/* A part is taken while others are on their way. */
+bool upload_bring(uploader *u, const void *from, size_t bytes, size_t item,
+                  upload_taker *take, void *user, brume_error *err)
+{
+    bringing b = {u, static_cast<const char *>(from), bytes,
+                  part_size / item * item};
+    size_t parts = (bytes + b.part - 1) / b.part, asked = 0;
+    cudaError_t code = wait(u);
+    for (size_t i = 0; i < parts && code == cudaSuccess; i++) {
+        for (; asked < std::min(i + UPLOAD_PARTS, parts) && code == cudaSuccess;
+             asked++)
+            code = bring_part(&b, asked);
+        if (code == cudaSuccess)
+            code = cudaEventSynchronize(event_of(u, i));
+        if (code == cudaSuccess)
+            take(user, i * b.part, memory_of(u, i), bytes_of(&b, i));
+    }
+    return device_check(code, "bringing the picture", err);
+}

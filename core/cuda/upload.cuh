@@ -1,7 +1,7 @@
 /* upload.cuh - copies to the device through memory that it reads by itself:
  * what is put waits until all of a frame is known, then threads fill parts of
  * that memory while the device reads others. A plain copy waits for a single
- * thread of the driver's. */
+ * thread of the driver's. Pictures come back the same way. */
 #ifndef CORE_CUDA_UPLOAD_CUH
 #define CORE_CUDA_UPLOAD_CUH
 #include <atomic>
@@ -47,4 +47,11 @@ bool upload_move(uploader *u, const void *whole, void *to, const void *from,
                  size_t bytes, brume_error *err);
 /* What waits is on its way: before what is launched next. */
 bool upload_flush(uploader *u, brume_error *err);
+
+/* Brings bytes from the device, in their order: each part of them, of whole
+ * items, is given to `take`. Waits for all. */
+typedef void upload_taker(void *user, size_t from, const char *bytes,
+                          size_t count);
+bool upload_bring(uploader *u, const void *from, size_t bytes, size_t item,
+                  upload_taker *take, void *user, brume_error *err);
 #endif
