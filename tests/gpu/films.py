@@ -44,7 +44,7 @@ check(cuda.cuMemAlloc_v2(ctypes.byref(at),
 print("held", flush=True)
 sys.stdin.read()
 """
-LEFT = (2000, 1200, 800, 400)     # MiB
+LEFT = (2000, 1600, 1200, 800)     # MiB
 FRAMES = 4
 DEALT = 12     # frames of films that two GPUs share
 
@@ -123,10 +123,10 @@ def words_of(integrator, film, spp):
 def enough_samples(films, scene, integrator, film):
     """So many that a run takes some seconds."""
     spp = {}
-    for n in (64, 512):
+    for n in (64, 2048):
         films.forget("tried")
         spp[n], _ = films.finish(scene, "tried", words_of(integrator, film, n))
-    each = max((spp[512] - spp[64]) / 448, 1e-5)
+    each = max((spp[2048] - spp[64]) / 1984, 1e-5)
     return min(max(int((6 - spp[64]) / each) // 2 * 2, 64), 60000)
 
 

@@ -75,10 +75,13 @@ static double told_over_true(void (*make)(struct film *, uint32_t, double,
     struct brume_options o = BRUME_OPTIONS_INIT;
     struct film f;
     o.width = o.height = SIDE;
-    assert_true(film_init(&f, &o, truth_error()));
+    assert_true(film_init(&f, &o, truth_error()) &&
+                film_room(&f, truth_error()));
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
         make(&f, samples, rare, seed);
-        told += film_error(&f) * film_error(&f);
+        double error;
+        assert_true(film_error(&f, film_rows_here, &f, &error, truth_error()));
+        told += error * error;
         is += error_of(&f) * error_of(&f);
     }
     film_release(&f);
