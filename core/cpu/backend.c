@@ -50,10 +50,9 @@ static void *cpu_open(const struct backend_frame *frame,
     bool good = s->count && (frame->raw || film_room(frame->film, err));
     const struct flat *flat = frame->flat;
     if (good && frame->stages->photons)
-        s->sum = memory_new(flat->radiance_count,
-                            frame->traced ? sizeof *flat->radiance
-                                          : sizeof *s->sum,
-                            err);
+        s->sum = memory_new(
+            flat->radiance_count,
+            frame->traced ? sizeof *flat->radiance : sizeof *s->sum, err);
     if (good && (s->sum || !frame->stages->photons))
         return s;
     cpu_close(s);
