@@ -41,6 +41,13 @@ BRUME_API void brume_film_free(struct brume_film *film);
  * many. */
 BRUME_API bool brume_film_taps(struct brume_photon_options *options, int taps);
 
+/* Whether what could be done at once is done in turn: a limit of memory is to
+ * hold whichever thread is how far. */
+static inline bool brume_film_in_turn(int threads, uint64_t memory)
+{
+    return threads == 1 || memory > 0;
+}
+
 /* How many frames on each side a picture with these options needs. */
 BRUME_API int brume_film_reach(const struct brume_options *options);
 

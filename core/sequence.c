@@ -326,8 +326,7 @@ static bool start(struct brume_film *film, const struct brume_options *first,
                   struct brume_error *err)
 {
     int count = film->wanted;
-    /* A limit is to hold whichever thread is how far. */
-    film->serial = first->threads == 1 || first->memory > 0;
+    film->serial = brume_film_in_turn(first->threads, first->memory);
     film->first = *first;
     film->worker = memory_new((size_t)count, sizeof *film->worker, err);
     bool good = film->worker;

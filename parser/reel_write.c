@@ -69,10 +69,9 @@ static void *run(void *context)
     return NULL;
 }
 
-/* A limit is to hold whichever thread is how far. */
 static bool goes_beside(const struct options *o)
 {
-    return o->to_file && o->threads != 1 && o->memory == 0;
+    return o->to_file && !brume_film_in_turn(o->threads, o->memory);
 }
 
 void reel_write_begin(struct reel_write *w)
