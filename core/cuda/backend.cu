@@ -347,8 +347,8 @@ void *try_open(const backend_frame *frame, size_t paths, brume_error *err)
     device_keep_memory();
     s->frame = *frame;
     s->most_paths = paths;
-    s->reserved = device_reserved();
     s->kept = resident_of(frame->options->still);
+    s->reserved = device_reserved(resident_pool(s->kept));
     s->stage = choose(kernels, frame->stages->needs & ~MAY_TINTS);
     s->liner = choose(line_kernels,
                       frame->stages->needs & ~(LINES_IGNORE | MAY_TINTS));
@@ -372,8 +372,10 @@ void *cuda_open(const backend_frame *frame, brume_error *err)
     void *state = try_open(frame, most_paths, err);
     if (state || err->code != BRUME_ERR_MEMORY)
         return state;
-    resident_empty(resident_of(frame->options->still));
-    device_trim(); /* stacks of kernels are not taken from the pool */
+    resident_set *kept = resident_of(frame->options->still);
+    resident_empty(kept);
+    /* Stacks of kernels are not taken from what was set aside. */
+    device_trim(resident_pool(kept));
     *err = {};
     return try_open(frame, few_paths, err);
 }
@@ -393,7 +395,7 @@ void give_times(cuda_state *s, brume_device_seconds *out)
 /* Hands over what memory was set aside since this was done last. */
 void give_memory(cuda_state *s, brume_stats *out)
 {
-    uint64_t now = device_reserved();
+    uint64_t now = device_reserved(resident_pool(s->kept));
     out->allocated += (now > s->reserved ? now - s->reserved : 0) +
                       s->to.set_aside;
     s->reserved = now;

@@ -71,64 +71,22 @@ static bool device_pool(cudaMemPool_t *pool)
            cudaDeviceGetDefaultMemPool(pool, device) == cudaSuccess;
 }
 
-/* Of a device whose number is too high for this: the one that frames have. */
-static bool device_pool_kept(cudaMemPool_t *pool)
+static void keep_all(cudaMemPool_t pool)
 {
-    enum { DEVICES = 64 };
-    static cudaMemPool_t pools[DEVICES];
-    int device = 0;
-    if (cudaGetDevice(&device) != cudaSuccess)
-        return false;
-    if (device >= DEVICES)
-        return device_pool(pool);
-    if (!pools[device]) {
-        cudaMemPoolProps props = {};
-        props.allocType = cudaMemAllocationTypePinned;
-        props.location.type = cudaMemLocationTypeDevice;
-        props.location.id = device;
-        if (cudaMemPoolCreate(&pools[device], &props) != cudaSuccess)
-            return false;
-    }
-    *pool = pools[device];
-    return true;
-}
-
-/* For each of the two. */
-template <typename body> static void device_pools(const body &what)
-{
-    cudaMemPool_t pool;
-    if (device_pool(&pool))
-        what(pool);
-    if (device_pool_kept(&pool))
-        what(pool);
-    cudaGetLastError();
+    uint64_t all = UINT64_MAX;
+    cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all);
 }
 
 void device_keep_memory()
 {
-    device_pools([](cudaMemPool_t pool) {
-        uint64_t all = UINT64_MAX;
-        cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all);
-    });
-}
-
-void device_trim()
-{
-    cudaDeviceSynchronize();
-    device_pools([](cudaMemPool_t pool) { cudaMemPoolTrimTo(pool, 0); });
+    cudaMemPool_t pool;
+    if (device_pool(&pool))
+        keep_all(pool);
 }
 
 cudaError_t device_new(void **memory, size_t bytes)
 {
     return cudaMallocAsync(memory, bytes, nullptr);
-}
-
-cudaError_t device_new_kept(void **memory, size_t bytes)
-{
-    cudaMemPool_t pool;
-    return device_pool_kept(&pool)
-               ? cudaMallocFromPoolAsync(memory, bytes, pool, nullptr)
-               : cudaMallocAsync(memory, bytes, nullptr);
 }
 
 void device_free(void *memory)
@@ -137,16 +95,56 @@ void device_free(void *memory)
         cudaFreeAsync(memory, nullptr);
 }
 
-uint64_t device_reserved()
+cudaMemPool_t device_pool_new()
 {
-    uint64_t sum = 0;
-    device_pools([&sum](cudaMemPool_t pool) {
-        uint64_t bytes = 0;
-        cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent,
-                                &bytes);
-        sum += bytes;
-    });
-    return sum;
+    cudaMemPool_t pool = nullptr;
+    cudaMemPoolProps props = {};
+    props.allocType = cudaMemAllocationTypePinned;
+    props.location.type = cudaMemLocationTypeDevice;
+    if (cudaGetDevice(&props.location.id) != cudaSuccess ||
+        cudaMemPoolCreate(&pool, &props) != cudaSuccess) {
+        cudaGetLastError();
+        return nullptr;
+    }
+    keep_all(pool);
+    return pool;
+}
+
+void device_pool_free(cudaMemPool_t pool)
+{
+    if (pool)
+        cudaMemPoolDestroy(pool);
+}
+
+cudaError_t device_new_from(cudaMemPool_t pool, void **memory, size_t bytes)
+{
+    return pool ? cudaMallocFromPoolAsync(memory, bytes, pool, nullptr)
+                : device_new(memory, bytes);
+}
+
+static uint64_t reserved_of(cudaMemPool_t pool)
+{
+    uint64_t bytes = 0;
+    cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent, &bytes);
+    return bytes;
+}
+
+uint64_t device_reserved(cudaMemPool_t pool)
+{
+    cudaMemPool_t frames;
+    return (device_pool(&frames) ? reserved_of(frames) : 0) +
+           (pool ? reserved_of(pool) : 0);
+}
+
+void device_trim(cudaMemPool_t pool)
+{
+    cudaMemPool_t frames;
+    cudaDeviceSynchronize();
+    if (device_pool(&frames))
+        cudaMemPoolTrimTo(frames, 0);
+    if (pool)
+        cudaMemPoolTrimTo(pool, 0);
+    cudaGetLastError();
 }
 
 size_t device_round(size_t bytes)

@@ -18,15 +18,19 @@ bool device_wait(const char *stage, struct brume_error *err);
 /* Memory of the device, in the order of its work. What is freed is kept for
  * the next that asks, so that frames after the first set none aside. */
 void device_keep_memory();
-/* Gives back what is set aside and not used, once all work is done. */
-void device_trim();
 cudaError_t device_new(void **memory, size_t bytes);
-/* The same for what outlives a frame, from memory of its own: between frames'
- * it would leave holes that the next does not fit into. */
-cudaError_t device_new_kept(void **memory, size_t bytes);
 void device_free(void *memory);
-/* Bytes set aside, used or not. */
-uint64_t device_reserved();
+
+/* Memory for what outlives a frame: between frames' own it would leave holes
+ * that the next does not fit into. NULL: there is none, and it is theirs. */
+cudaMemPool_t device_pool_new();
+void device_pool_free(cudaMemPool_t pool);
+cudaError_t device_new_from(cudaMemPool_t pool, void **memory, size_t bytes);
+
+/* Bytes set aside of frames' memory and of that, or NULL; used or not. */
+uint64_t device_reserved(cudaMemPool_t pool);
+/* Gives back what is not used, once all work is done. */
+void device_trim(cudaMemPool_t pool);
 
 /* Hands out parts of one device allocation. */
 struct device_arena {

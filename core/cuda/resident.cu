@@ -53,6 +53,7 @@ struct resident_looked {
 };
 
 struct resident_set {
+    cudaMemPool_t pool;
     resident *first;
     uploader *to;
     int threads;
@@ -91,6 +92,7 @@ void release(void *set)
     resident_set *it = static_cast<resident_set *>(set);
     drop(it, -1);
     cudaFreeHost(it->spare.load());
+    device_pool_free(it->pool);
     delete it;
 }
 
@@ -99,13 +101,13 @@ void release(void *set)
 bool allocate(resident_set *set, resident *r, brume_error *err)
 {
     void *memory = nullptr;
-    cudaError_t code = device_new_kept(&memory, r->bytes);
+    cudaError_t code = device_new_from(set->pool, &memory, r->bytes);
     if (code != cudaSuccess) {
         cudaGetLastError();
         if (!upload_flush(set->to, err))
             return false;
         drop(set, 0);
-        code = device_new_kept(&memory, r->bytes);
+        code = device_new_from(set->pool, &memory, r->bytes);
     }
     r->device = static_cast<char *>(memory);
     return device_check(code, "allocating the frame", err);
@@ -274,9 +276,18 @@ resident *add(resident_set *set, size_t bytes, const contents *c,
 resident_set *resident_of(brume_still *still)
 {
     void **slot = still ? still_device(still, release) : nullptr;
-    if (slot && !*slot)
-        *slot = new (std::nothrow) resident_set();
+    if (slot && !*slot) {
+        resident_set *set = new (std::nothrow) resident_set();
+        if (set)
+            set->pool = device_pool_new();
+        *slot = set;
+    }
     return slot ? static_cast<resident_set *>(*slot) : nullptr;
+}
+
+cudaMemPool_t resident_pool(const resident_set *set)
+{
+    return set ? set->pool : nullptr;
 }
 
 std::atomic<char *> *resident_spare(resident_set *set)

@@ -13,6 +13,9 @@ struct resident_set;
 /* That of a film's worker, made if need be; NULL: there is none. */
 resident_set *resident_of(brume_still *still);
 
+/* The memory that it has; NULL of NULL. */
+cudaMemPool_t resident_pool(const resident_set *set);
+
 /* Where the memory that uploads go through waits for the next frame; NULL of
  * NULL. */
 std::atomic<char *> *resident_spare(resident_set *set);
