@@ -34,6 +34,10 @@ BRUME_API bool brume_film_workers(struct brume_film *film, int count,
  * them, and `why` (of `size` bytes) says why. */
 BRUME_API int brume_film_devices(const struct brume_options *options, char *why,
                                  size_t size);
+/* Starts the device of frames with these options while the caller reads the
+ * first of them; of use before the first is pushed. What fails is told then. */
+BRUME_API void brume_film_begin(struct brume_film *film,
+                                const struct brume_options *options);
 /* Stops what is under way. */
 BRUME_API void brume_film_free(struct brume_film *film);
 

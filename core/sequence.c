@@ -72,6 +72,9 @@ struct brume_film {
     int workers, wanted;
     bool serial; /* a worker has one thread                      */
     struct brume_options first; /* of the first frame: which backend      */
+    struct brume_options early; /* the starter's                          */
+    pthread_t starter;          /* starts the first device, if `begun`    */
+    bool begun;
     struct shots shots;
     pthread_mutex_t lock; /* of what follows, up to `stop`                */
     pthread_cond_t work, news;
@@ -375,8 +378,25 @@ static void free_task(struct brume_film *film, struct task *task)
     free(task);
 }
 
+static void *run_starter(void *film)
+{
+    backend_use_device(&((struct brume_film *)film)->early, 0);
+    return NULL;
+}
+
+void brume_film_begin(struct brume_film *film,
+                      const struct brume_options *options)
+{
+    if (film->begun || film->workers > 0)
+        return;
+    film->early = *options;
+    film->begun = thread_begin(&film->starter, run_starter, film) == 0;
+}
+
 static void stop_workers(struct brume_film *film)
 {
+    if (film->begun)
+        pthread_join(film->starter, NULL);
     atomic_store(&film->stop, true);
     pthread_mutex_lock(&film->lock);
     film->quit = true;

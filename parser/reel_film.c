@@ -194,12 +194,23 @@ static bool choose_workers(struct film_run *run,
     return brume_film_workers(run->film, run->workers, err);
 }
 
+/* The device is started while the first scene is read, which says nothing yet
+ * but what the user said. */
+static void begin_device(struct film_run *run)
+{
+    const struct parse_result none = {0};
+    struct brume_options options = reel_options(run->reel, 0, &none);
+    brume_film_begin(run->film, &options);
+}
+
 /* Reads a frame's scene and hands it over. */
 static enum brume_code read_frame(struct film_run *run, struct reading *reading)
 {
     struct reel *reel = run->reel;
     struct parse_result scene = {0};
     struct brume_error err = {0};
+    if (run->workers == 0)
+        begin_device(run);
     enum brume_code code = reel_read(reel, &reading->record, &scene,
                                      &reading->origins);
     if (code)

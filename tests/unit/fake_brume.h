@@ -299,6 +299,13 @@ bool brume_film_workers(struct brume_film *film, int count,
     return true;
 }
 
+void brume_film_begin(struct brume_film *film,
+                      const struct brume_options *options)
+{
+    (void)film;
+    (void)options;
+}
+
 int brume_film_devices(const struct brume_options *options, char *why,
                        size_t size)
 {

@@ -70,6 +70,7 @@ static void make_film(struct brume_options o, int workers, struct made *out)
     int reach = brume_film_reach(&o), pushed = 0, taken = 0;
     memset(out, 0, sizeof *out);
     assert_true(brume_film_workers(film, workers, truth_error()));
+    brume_film_begin(film, &o);
     for (int i = 0; i < FRAMES; i++) {
         while (pushed < FRAMES && pushed <= i + reach)
             push(film, &o, pushed++);
@@ -125,6 +126,24 @@ static void workers__are_chosen_before_the_first_frame(void **state)
     err = (struct brume_error){0};
     assert_false(brume_film_workers(film, 2, &err));
     assert_non_null(strstr(err.text, "begun"));
+    brume_film_free(film);
+}
+
+static void workers__begin_once_or_never(void **state)
+{
+    (void)state;
+    struct brume_options o = options(1, false);
+    struct brume_film *film = brume_film_new(NULL, truth_error());
+    brume_film_begin(film, &o);
+    brume_film_begin(film, &o);
+    brume_film_free(film);
+    film = brume_film_new(NULL, truth_error());
+    push(film, &o, 0);
+    brume_film_begin(film, &o);
+    assert_true(brume_film_ask(film, 0, 0, 0, truth_error()));
+    struct brume_frame f = {0};
+    assert_true(brume_film_next(film, &f, truth_error()));
+    brume_frame_free(&f);
     brume_film_free(film);
 }
 
@@ -256,6 +275,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(workers__have_the_pictures_of_one),
         cmocka_unit_test(workers__are_chosen_before_the_first_frame),
+        cmocka_unit_test(workers__begin_once_or_never),
         cmocka_unit_test(workers__prepare_while_they_render),
         cmocka_unit_test(workers__keep_to_memory),
         cmocka_unit_test(workers__stop_all),
