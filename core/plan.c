@@ -259,10 +259,15 @@ static const char *filter_reason(const struct brume_options *options,
                : "a picture alone, or temporal is 1";
 }
 
-static const char *single_reason(const struct flat *f, const struct stages *s)
+static const char *single_reason(const struct flat *f,
+                                 const struct brume_options *options,
+                                 const struct stages *s)
 {
     if (s->cells)
         return "the cells of the field hold it";
+    if (s->photons && radiance_keeps_lit(f, options))
+        return "lights reach media: cells hold it, and the eye's rays sample "
+               "what they are wrong by";
     if (s->single)
         return "lights reach media: sampled along the eye's rays";
     return f->view.scatters ? "there is no light" : "no medium scatters";
@@ -313,6 +318,12 @@ static uint64_t grid_bytes(const struct flat *f)
            f->cells_count * sizeof *f->cells;
 }
 
+static size_t radiance_cells(const struct flat *f)
+{
+    int numbers = f->view.field.numbers;
+    return numbers > 0 ? f->radiance_count / (size_t)numbers : 0;
+}
+
 /* Bricks of each level. */
 static void note_levels(const struct flat *f, struct brume_plan *plan)
 {
@@ -325,9 +336,9 @@ static void note_levels(const struct flat *f, struct brume_plan *plan)
              "field of scattered light: %zu cells, %zu of %d x %d x %d bricks "
              "with cells of %g on a side, %zu, %zu, %zu with cells 2, 4, 8 "
              "times as large; %d numbers in each",
-             f->radiance_count / (size_t)l->numbers, bricks[0], l->bricks[0],
-             l->bricks[1], l->bricks[2], (double)l->side / f->unit, bricks[1],
-             bricks[2], bricks[3], l->numbers);
+             radiance_cells(f), bricks[0], l->bricks[0], l->bricks[1],
+             l->bricks[2], (double)l->side / f->unit, bricks[1], bricks[2],
+             bricks[3], l->numbers);
 }
 
 static void note_field(const struct flat *f,
@@ -344,8 +355,13 @@ static void note_field(const struct flat *f,
     add_note(plan,
              "field of scattered light: %zu of %d x %d x %d bricks of 8^3 "
              "cells, %g on a side, %d numbers in each",
-             f->radiance_count / 512 / (size_t)l->numbers, l->bricks[0],
-             l->bricks[1], l->bricks[2], (double)l->side / f->unit, l->numbers);
+             radiance_cells(f) / 512, l->bricks[0], l->bricks[1], l->bricks[2],
+             (double)l->side / f->unit, l->numbers);
+    if (radiance_drawn_numbers(f, options) > l->numbers)
+        add_note(plan,
+                 "its cells have %d numbers once it is filtered, with light "
+                 "straight from lights",
+                 radiance_drawn_numbers(f, options));
     if (options->photons.depth > 0.0)
         add_note(plan, "its cells are of one size: %s",
                  l->ball ? "balls gather it"
@@ -500,14 +516,15 @@ void plan_describe(const brume_scene *scene, const struct flat *f,
     add_stage(plan, "emit", s.photons, 0, reason);
     add_stage(plan, "trace", s.photons, radiance_sum_bytes(f), reason);
     add_stage(plan, "gather", s.photons,
-              f->radiance_count * sizeof *f->radiance +
+              radiance_cells(f) * (size_t)radiance_drawn_numbers(f, options) *
+                      sizeof *f->radiance +
                   f->radiance_slots_count * sizeof *f->radiance_slots,
               reason);
     add_stage(plan, "filter", s.photons && brume_film_reach(options) > 0,
               ring_bytes(f, options), filter_reason(options, &s));
     add_stage(plan, "march", s.march, pixels * sizeof(film_pixel),
               "opacity, depth, background and emission toward the eye");
-    add_stage(plan, "single", s.single, 0, single_reason(f, &s));
+    add_stage(plan, "single", s.single, 0, single_reason(f, options, &s));
     add_stage(plan, "path", s.path, 0, path_reason(f, &s));
     add_stage(plan, "composite", f->plate_count > 0,
               f->plate_count * sizeof *f->plate, plate_reason(f));

@@ -555,15 +555,25 @@ static void widen_brick(void *context, size_t brick, int thread)
         memcpy(to, from, w->before * sizeof *to);
 }
 
+int radiance_drawn_numbers(const struct flat *flat,
+                           const struct brume_options *options)
+{
+    const radiance_lattice *f = &flat->view.field;
+    bool widens = f->numbers > 0 && !f->lit &&
+                  radiance_keeps_lit(flat, options);
+    return f->numbers + (widens ? 3 * f->phases : 0);
+}
+
 bool radiance_widen(struct flat *flat, const struct brume_options *options,
                     struct brume_error *err)
 {
     radiance_lattice *f = &flat->view.field;
-    if (f->lit || f->numbers == 0 || !radiance_keeps_lit(flat, options))
+    int numbers = radiance_drawn_numbers(flat, options);
+    if (numbers == f->numbers)
         return true;
     struct widening w = {.from = flat->radiance,
                          .before = (size_t)f->numbers,
-                         .after = (size_t)(f->numbers + 3 * f->phases)};
+                         .after = (size_t)numbers};
     size_t cells = flat->radiance_count / w.before;
     w.to = memory_new(cells * w.after, sizeof *w.to, err);
     if (!w.to)
@@ -573,7 +583,7 @@ bool radiance_widen(struct flat *flat, const struct brume_options *options,
     flat->radiance = w.to;
     flat->radiance_count = flat->radiance_capacity = cells * w.after;
     f->lit = f->numbers;
-    f->numbers = (int32_t)w.after;
+    f->numbers = numbers;
     flat_view(flat);
     return true;
 }

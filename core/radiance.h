@@ -14,9 +14,13 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
 bool radiance_renew(struct flat *flat, const struct brume_options *options,
                     uint32_t pass, struct brume_error *err);
 
-/* Makes room in the cells of a field that was filtered for light straight from
- * lights, where they shall hold it (radiance_keeps_lit): it has no noise that
- * a filter would take. */
+/* Numbers of a cell when a picture is drawn of the field: where it is filtered,
+ * light straight from lights comes behind what filters had to do with, as it
+ * has no noise that they would take (radiance_keeps_lit). */
+int radiance_drawn_numbers(const struct flat *flat,
+                           const struct brume_options *options);
+
+/* Makes room for these. */
 bool radiance_widen(struct flat *flat, const struct brume_options *options,
                     struct brume_error *err);
 

@@ -117,6 +117,8 @@ brume five.pov --explain
 grep -q '^filter  *no' printed || complain 'a filter is planned'
 brume five.pov --explain +KFF9
 grep -q '^filter  *yes .*mean over' printed || complain 'no filter is planned'
+grep -q ' 6 numbers once it is filtered' printed ||
+    complain 'what cells hold then is not told'
 
 new_case 'what is wrong is told'
 cp "$ROOT/tests/data/kinds.vdb" .
