@@ -30,6 +30,8 @@ OURS = {"photon": [(250000, 1), (1000000, 1), (1000000, 4), (1000000, 16),
                    (4000000, 16), (4000000, 64), (16000000, 64)],
         "progressive": [(1000000, 4), (1000000, 16), (4000000, 16),
                         (4000000, 64)]}
+# So deep a cloud that noise is left of the photons above.
+MORE_PHOTONS = {"cloud": [(64000000, 64), (256000000, 64), (512000000, 64)]}
 GRID = {"cloud": (192, 128, 192), "smoke": (96, 96, 96)}
 # Half the sides of the containers.
 HALF = {"cloud": (0.8625, 0.575, 0.8625), "smoke": (1, 1, 1)}
@@ -323,7 +325,8 @@ def field_rows(judge, name, integrator, brume, theirs):
     time of these to an error beside that of volpath, `theirs` relMSE times
     seconds, of all pixels and of most."""
     rows, seen = [], []
-    for photons, spp in OURS[integrator]:
+    more = MORE_PHOTONS.get(name, []) if integrator == "photon" else []
+    for photons, spp in OURS[integrator] + more:
         picture, device, whole = brume.draw(
             7, "--integrator", integrator, "--photons", str(photons), "--spp",
             str(spp))
