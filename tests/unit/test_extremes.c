@@ -700,33 +700,6 @@ static void extremes__lamp_on_the_ray(void **state)
     }
 }
 
-/* A lamp in the middle of a white ball of optical radius 20: what it gives
- * comes out, but for what was not scattered; over the square around the ball
- * that is a mean of I / 4. Directions that are chosen by the lamp at each of
- * hundreds of vertices would leave a tenth of it. */
-static void extremes__lamp_in_a_deep_ball(void **state)
-{
-    (void)state;
-    const double depth = 20.0;
-    struct brume_globals globals = furnace_of(0.0);
-    globals.physical_units = true;
-    brume_scene *s = truth_scene(&globals, 100.0, 0.02);
-    struct brume_medium m = truth_medium(0.0, depth, 0.0);
-    struct brume_shape ball = BRUME_SHAPE_INIT;
-    struct brume_light l = BRUME_LIGHT_INIT;
-    ball.kind = BRUME_SHAPE_SPHERE;
-    ball.radius = 1.0;
-    for (int c = 0; c < 3; c++)
-        l.color[c] = 1.0 / TRUTH_PI;
-    truth_fill(s, ball, &m);
-    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
-    struct estimate e = truth_render(s, 32, 256);
-    assert_int_equal(e.stats.rejected, 0);
-    assert_true(e.error[0] < 0.02);
-    check_near("I / 4 of a lamp in a ball", e.mean[0],
-               0.25 * (1.0 - exp(-depth)), 0.2);
-}
-
 /* Nothing shines, nothing is there, or what shines is black. */
 static void extremes__nothing(void **state)
 {
@@ -809,7 +782,6 @@ int main(void)
         cmocka_unit_test(extremes__scales),
         cmocka_unit_test(extremes__nested_media),
         cmocka_unit_test(extremes__lamp_on_the_ray),
-        cmocka_unit_test(extremes__lamp_in_a_deep_ball),
         cmocka_unit_test(extremes__nothing),
         cmocka_unit_test(extremes__temperatures),
     };

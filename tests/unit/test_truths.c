@@ -344,6 +344,33 @@ static void truths__slab_of_three_colors(void **state)
     truth_check_colors("T6, colors", &e, sum, 1e-6, 4e-3);
 }
 
+/* A lamp in the middle of a white ball of optical radius 20: what it gives
+ * comes out, but for what was not scattered; over the square around the ball
+ * that is a mean of I / 4. Directions that are chosen by the lamp at each of
+ * hundreds of vertices would leave a tenth of it. */
+static void truths__lamp_in_a_deep_ball(void **state)
+{
+    (void)state;
+    struct brume_globals globals = multiple_under(0.0);
+    globals.physical_units = true;
+    brume_scene *s = truth_scene(&globals, 100.0, 0.02);
+    struct brume_medium m = truth_medium(0.0, 20.0, 0.0);
+    struct brume_shape ball = BRUME_SHAPE_INIT;
+    struct brume_light l = BRUME_LIGHT_INIT;
+    ball.kind = BRUME_SHAPE_SPHERE;
+    ball.radius = 1.0;
+    for (int c = 0; c < 3; c++)
+        l.color[c] = 1.0 / TRUTH_PI;
+    truth_fill(s, ball, &m);
+    assert_true(brume_add_light(s, &l, truth_error()) >= 0);
+    struct estimate e = truth_render(s, 32, 256);
+    assert_int_equal(e.stats.rejected, 0);
+    assert_true(e.error[0] < 0.02);
+    if (!(fabs(e.mean[0] - 0.25) < 0.05))
+        fail_msg("a lamp in a ball: %.4g +- %.2g, truth 0.25", e.mean[0],
+                 e.error[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +385,7 @@ int main(void)
         cmocka_unit_test(truths__furnace_with_surface),
         cmocka_unit_test(truths__furnace_isothermal),
         cmocka_unit_test(truths__single_scattering),
+        cmocka_unit_test(truths__lamp_in_a_deep_ball),
         cmocka_unit_test(truths__slab_radiance),
         cmocka_unit_test(truths__slab_under_sky),
         cmocka_unit_test(truths__slab_of_three_colors),
