@@ -194,8 +194,8 @@ static bool choose_workers(struct film_run *run,
     return brume_film_workers(run->film, run->workers, err);
 }
 
-/* The device is started while the first scene is read, which says nothing yet
- * but what the user said. */
+/* The device is started while the first scene is read: of the options only
+ * those of the command line are known yet. */
 static void begin_device(struct film_run *run)
 {
     const struct parse_result none = {0};

@@ -353,5 +353,6 @@ def rows(brume, room, bench):
     out += deal_rows(films)
     return [{key: row.get(key, "") for key in
              ("what", "how", "seconds", "one", "codes", "worst ms", "kept", "same",
-              "kills", "torn", "ms", "most", "alone", "share %", "first", "later", "passed")}
+              "kills", "torn", "ms", "most", "alone", "share %", "first", "later",
+              "passed")}
             for row in out]
