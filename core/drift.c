@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include "core/physics/medium.h"
 #include "core/physics/radiance.h"
+#include "core/radiance.h"
 #include "lib/memory.h"
 #include "lib/thread.h"
 
@@ -149,10 +150,9 @@ bool drift_find(const brume_scene *scene, struct flat *flat, int threads,
                 struct brume_error *err)
 {
     struct streams s = {.flat = flat};
-    const radiance_lattice *f = &flat->view.field;
     bool good = find_streams(scene, &s, err);
     if (good && s.count > 0 && flat->radiance_count > 0) {
-        size_t bricks = flat->radiance_count / (512 * (size_t)f->numbers);
+        size_t bricks = radiance_cells(flat) / 512;
         flat->drift = memory_new(bricks * DRIFT_BLOCKS * 3, sizeof *flat->drift,
                                  err);
         good = flat->drift != NULL;

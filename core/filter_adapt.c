@@ -21,6 +21,7 @@
 #include <string.h>
 #include "core/filter_fall.h"
 #include "core/filter_judge.h"
+#include "core/radiance.h"
 #include "lib/memory.h"
 #include "lib/thread.h"
 
@@ -689,7 +690,7 @@ bool filter_adapt(struct flat *flat, const struct filter_field *const *fields,
     for (int k = 0; k < BRUME_MAX_TAPS; k++)
         a.noise[k] = larger(a.noise[k], 1e-3f * a.noise[MIDDLE]);
     threads = threads > 0 ? threads : thread_processors();
-    a.bricks = flat->radiance_count / (FILTER_CELLS * (size_t)f->numbers);
+    a.bricks = radiance_cells(flat) / FILTER_CELLS;
     bool good = take_room(&a, threads, scratch, err) &&
                 filter_judge(&a.judge, threads, scratch, err);
     if (good && a.bricks > 0)

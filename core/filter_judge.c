@@ -1,4 +1,5 @@
 #include "core/filter_judge.h"
+#include "core/radiance.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -242,8 +243,7 @@ static bool judge_all(struct filter_judge *judge, bool moved, int threads,
                       struct filter_scratch *scratch, struct brume_error *err)
 {
     const struct flat *flat = judge->flat;
-    size_t numbers = (size_t)flat->view.field.numbers;
-    size_t bricks = flat->radiance_count / (numbers * FILTER_CELLS);
+    size_t bricks = radiance_cells(flat) / FILTER_CELLS;
     size_t blocks = bricks * FILTER_BLOCKS;
     struct filter_stats *stats = memory_grow(scratch->stats[moved],
                                              &scratch->stats_room[moved],

@@ -468,7 +468,7 @@ static bool run_photons(struct frame_job *j, struct brume_error *err)
                                  : trace_part(j, &photons.job, err));
     j->power = photons.job.power / (double)photons.job.count;
     good = good && b->gather(j->state, j->power, err);
-    stats->cells = flat->radiance_count / (uint64_t)flat->view.field.numbers;
+    stats->cells = radiance_cells(flat);
     stats->side = (double)flat->view.field.side / flat->unit;
     stats->bytes = radiance_sum_bytes(flat) +
                    flat->radiance_count * sizeof(float);

@@ -318,12 +318,6 @@ static uint64_t grid_bytes(const struct flat *f)
            f->cells_count * sizeof *f->cells;
 }
 
-static size_t radiance_cells(const struct flat *f)
-{
-    int numbers = f->view.field.numbers;
-    return numbers > 0 ? f->radiance_count / (size_t)numbers : 0;
-}
-
 /* Bricks of each level. */
 static void note_levels(const struct flat *f, struct brume_plan *plan)
 {

@@ -555,6 +555,12 @@ static void widen_brick(void *context, size_t brick, int thread)
         memcpy(to, from, w->before * sizeof *to);
 }
 
+size_t radiance_cells(const struct flat *flat)
+{
+    int numbers = flat->view.field.numbers;
+    return numbers > 0 ? flat->radiance_count / (size_t)numbers : 0;
+}
+
 int radiance_drawn_numbers(const struct flat *flat,
                            const struct brume_options *options)
 {
@@ -574,7 +580,7 @@ bool radiance_widen(struct flat *flat, const struct brume_options *options,
     struct widening w = {.from = flat->radiance,
                          .before = (size_t)f->numbers,
                          .after = (size_t)numbers};
-    size_t cells = flat->radiance_count / w.before;
+    size_t cells = radiance_cells(flat);
     w.to = memory_new(cells * w.after, sizeof *w.to, err);
     if (!w.to)
         return false;
@@ -620,7 +626,7 @@ bool radiance_renew(struct flat *flat, const struct brume_options *options,
 
 size_t radiance_blocks(const struct flat *flat)
 {
-    return flat->radiance_count / (8 * (size_t)flat->view.field.numbers);
+    return radiance_cells(flat) / 8;
 }
 
 uint64_t radiance_sum_bytes(const struct flat *flat)

@@ -14,6 +14,9 @@ bool radiance_layout(struct flat *flat, const struct brume_options *options,
 bool radiance_renew(struct flat *flat, const struct brume_options *options,
                     uint32_t pass, struct brume_error *err);
 
+/* Cells of the field; 0 without one. */
+size_t radiance_cells(const struct flat *flat);
+
 /* Numbers of a cell when a picture is drawn of the field: where it is filtered,
  * light straight from lights comes behind what filters had to do with, as it
  * has no noise that they would take (radiance_keeps_lit). */

@@ -17,8 +17,8 @@ enum { PATH_THROUGH, PATH_SCATTERED, PATH_ENDED };
 typedef struct {
     int32_t on;             /* lights are sought along the ray too         */
     float first, last;      /* where there are media                       */
-    float scatter, stop;    /* mean drawn scattering, and all that ends a
-                               flight, between them                        */
+    float extinction;       /* mean, between them                          */
+    float stop;             /* the same of what ends a flight as it is drawn */
 } path_stretch;
 
 /* A scattering event. */
@@ -433,8 +433,8 @@ HD void path_look(const flat_scene *s, path_state *p, float t1)
     p->boost = path_boost(p, scattered);
     float length = look->last - look->first;
     look->on = look->on && scattered > 0.0f && length > 0.0f;
-    look->scatter = p->boost * scattered / length;
-    look->stop = look->scatter + (lost - scattered) / length;
+    look->extinction = lost / length;
+    look->stop = p->boost * scattered / length + (lost - scattered) / length;
     /* Not where next to nothing comes through. */
     look->last = hd_min(look->last, look->first + 30.0f * length / lost);
 }

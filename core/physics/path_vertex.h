@@ -304,14 +304,13 @@ HD rgb path_bounce_eval(const path_state *p, const path_vertex *v, vec3 wi,
     return value;
 }
 
-/* What media take away per length, as the segment that led to a vertex tells;
- * 0 where none are. */
+/* What media take away per length, as the last stretch of them on the way to a
+ * vertex tells; 0 where there was none. */
 HD float path_extinction(const path_state *p, const path_vertex *v)
 {
-    const path_stretch *look = &p->stretch;
-    if (!look->on)
-        return v->on_surface ? 0.0f : v->event->sigma_s;
-    return look->stop - look->scatter + look->scatter / p->boost;
+    if (p->stretch.on)
+        return p->stretch.extinction;
+    return v->on_surface ? 0.0f : v->event->sigma_s;
 }
 
 /* Where a path goes on from a vertex, a lamp that is near chooses the more of
